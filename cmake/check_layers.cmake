@@ -1,3 +1,5 @@
+cmake_minimum_required(VERSION 3.25)
+
 # Holds the layers: every #include of a source file must point to its own
 # module or to a module its layer may use. Run as the test architecture.layers:
 #
