@@ -10,12 +10,11 @@
 #ifndef ARGMESH_CORE_ABSTRACTION_DECOMPOSITION_H_
 #define ARGMESH_CORE_ABSTRACTION_DECOMPOSITION_H_
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "absl/status/statusor.h"
 #include "core/abstraction/surface_features.h"
@@ -25,23 +24,28 @@
 
 namespace argmesh {
 
-enum class DecompositionKind { kBiharmonic, kNormalCurvature, kVoronoi, kGiven };
+enum class DecompositionKind {
+  kBiharmonic,
+  kNormalCurvature,
+  kVoronoi,
+  kGiven
+};
 
 // "biharmonic", "normal-curvature", "voronoi", "given".
 std::string_view DecompositionName(DecompositionKind kind);
 
 struct BiharmonicOptions {
-  int eigenvectors = 12;           // 1 .. 100
-  double thickness_weight = 0.3;   // of log2 shape diameter in the joint space
-  double concavity_scale = 0.05;   // length that makes curvature dimensionless
-  double concavity_floor = 0.0;    // concavity below this is no crease
-  double concavity_width = 0.1;    // > 0
-  double thickness_width = 0.5;    // > 0
-  double min_conductance = 0.02;   // 0 .. 1, share left at the sharpest crease
-  int super_samples = 600;         // 10 .. 100,000 points that shift
-  double min_window = 0.03;        // w_MIN, joint-space units, > 0
-  double max_window = 0.07;        // w_MAX, >= min_window
-  double window_growth = 1.15;     // factor between windows, > 1
+  int eigenvectors = 12;          // 1 .. 100
+  double thickness_weight = 0.3;  // of log2 shape diameter in the joint space
+  double concavity_scale = 0.05;  // length that makes curvature dimensionless
+  double concavity_floor = 0.0;   // concavity below this is no crease
+  double concavity_width = 0.1;   // > 0
+  double thickness_width = 0.5;   // > 0
+  double min_conductance = 0.02;  // 0 .. 1, share left at the sharpest crease
+  int super_samples = 600;        // 10 .. 100,000 points that shift
+  double min_window = 0.03;       // w_MIN, joint-space units, > 0
+  double max_window = 0.07;       // w_MAX, >= min_window
+  double window_growth = 1.15;    // factor between windows, > 1
 };
 
 struct NormalCurvatureOptions {
@@ -58,36 +62,40 @@ struct DecompositionOptions {
   DecompositionKind kind = DecompositionKind::kBiharmonic;
   BiharmonicOptions biharmonic;
   NormalCurvatureOptions normal_curvature;
-  int voronoi_cells = 64;              // 2 .. 1000, kVoronoi only
-  double min_region_area = 0.003;      // smaller regions are absorbed
-  int max_regions = 96;                // 1 .. 1000
+  int voronoi_cells = 64;          // 2 .. 1000, kVoronoi only
+  double min_region_area = 0.003;  // smaller regions are absorbed
+  int max_regions = 96;            // 1 .. 1000
   // Levels: first by Ncut threshold, ascending, then by component count.
   std::vector<double> level_thresholds = {1.6, 2.0, 2.4, 2.8};
   std::vector<int> level_counts = {16};
 };
 
+// The defaults of each kind: which levels, how small a region may be.
+DecompositionOptions DecompositionOptionsFor(DecompositionKind kind);
+
 // A statistical mode found in the first stage.
 struct Mode {
-  int32_t sample = 0;      // nearest sample of the surface
-  float window = 0;        // w_max: the largest window it was stable under
+  int32_t sample = 0;         // nearest sample of the surface
+  float window = 0;           // w_max: the largest window it was stable under
   int32_t repeatability = 1;  // windows it was stable under
-  float density = 0;       // f(m), share of the surface's mass
-  float offset = 0;        // |delta(m)| over the window at w_max
-  int32_t region = 0;      // finest region it stands for
+  float density = 0;          // f(m), share of the surface's mass
+  float offset = 0;           // |delta(m)| over the window at w_max
+  int32_t region = 0;         // finest region it stands for
 };
 
 // One cut through the tree of components.
 struct DecompositionLevel {
-  double threshold = 0;     // largest Ncut value cut at; 0 for a count level
-  int32_t count = 0;        // asked-for components; 0 for a threshold level
+  double threshold = 0;  // largest Ncut value cut at; 0 for a count level
+  int32_t count = 0;     // asked-for components; 0 for a threshold level
   int num_components = 0;
   std::vector<int32_t> component_of_region;
-  std::vector<int32_t> parent;  // component of the level before; -1 at the first
+  std::vector<int32_t>
+      parent;  // component of the level before; -1 at the first
 };
 
 // The normalized cut that split a component in two.
 struct CutNode {
-  double ncut = 0;        // value of its best cut; infinite for a leaf
+  double ncut = 0;  // value of its best cut; infinite for a leaf
   int32_t children[2] = {-1, -1};
   std::vector<int32_t> regions;
 };
@@ -96,8 +104,8 @@ struct Decomposition {
   std::vector<Mode> modes;
   std::vector<int32_t> region_of_sample;  // the finest components (FECs)
   int num_regions = 0;
-  std::vector<CutNode> cut_tree;            // node 0 is the whole surface
-  std::vector<DecompositionLevel> levels;   // coarse to fine, nested
+  std::vector<CutNode> cut_tree;           // node 0 is the whole surface
+  std::vector<DecompositionLevel> levels;  // coarse to fine, nested
 
   // Component of every sample at `level`.
   std::vector<int32_t> ComponentOfSample(int level) const;

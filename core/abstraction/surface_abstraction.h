@@ -14,11 +14,10 @@
 #ifndef ARGMESH_CORE_ABSTRACTION_SURFACE_ABSTRACTION_H_
 #define ARGMESH_CORE_ABSTRACTION_SURFACE_ABSTRACTION_H_
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
