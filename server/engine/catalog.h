@@ -1,0 +1,96 @@
+// Port: the durable truth about collections, shapes and their graphs.
+//
+// Repeats  A write that returned OK is durable and visible to every later
+//          read; one that failed changed nothing. Every read answers from one
+//          state of the catalog.
+// Order    Each shape write adds 1 to its collection's generation, without
+//          gaps; ReadChanges replays them in that order.
+// Fails    by MakeError with the reasons named at each function, and anywhere
+//          kStoredDataDamaged, kStoreUnavailable, kStoreFull (writes that
+//          add), kOverloaded (writes), kInternal.
+// Thread-safe. Calls block: writes for about one commit (5 ms).
+#ifndef ARGMESH_SERVER_ENGINE_CATALOG_H_
+#define ARGMESH_SERVER_ENGINE_CATALOG_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/engine/catalog_requests.h"
+#include "server/engine/collection_record.h"
+#include "server/engine/shape_record.h"
+
+namespace argmesh {
+
+class Catalog {
+ public:
+  virtual ~Catalog() = default;
+
+  // --- collections -------------------------------------------------------
+  // kCollectionExists, kRequestIdReused. `record` comes with id, uid, times.
+  virtual absl::StatusOr<CollectionRecord> InsertCollection(
+      const CollectionRecord& record, const RequestStamp& request) = 0;
+  // kCollectionNotFound, kEtagMismatch.
+  virtual absl::StatusOr<CollectionRecord> UpdateCollection(
+      const CollectionPatch& patch) = 0;
+  // kCollectionNotFound, kCollectionNotEmpty, kEtagMismatch.
+  virtual absl::StatusOr<CollectionDeleted> DeleteCollection(
+      const CollectionDelete& removal) = 0;
+  // kCollectionNotFound.
+  virtual absl::StatusOr<CollectionRecord> GetCollection(
+      std::string_view id) const = 0;
+  // By id, ascending, after `after_id`.
+  virtual absl::StatusOr<std::vector<CollectionRecord>> ListCollections(
+      std::string_view after_id, int limit) const = 0;
+
+  // --- shapes ------------------------------------------------------------
+  // kCollectionNotFound (also when the id now belongs to another uid),
+  // kShapeExists, kEtagMismatch, kRequestIdReused.
+  virtual absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) = 0;
+  // kCollectionNotFound, kShapeNotFound, kEtagMismatch.
+  virtual absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) = 0;
+  // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kRequestIdReused.
+  virtual absl::StatusOr<ShapeDeleted> DeleteShape(
+      const ShapeDelete& removal) = 0;
+  // kCollectionNotFound, kShapeNotFound.
+  virtual absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
+                                               std::string_view id) const = 0;
+  // By id, ascending, after `after_id`. kCollectionNotFound.
+  virtual absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
+      std::string_view collection, std::string_view after_id,
+      int limit) const = 0;
+
+  // --- graphs ------------------------------------------------------------
+  // kCollectionNotFound, kShapeNotFound; the labels only when asked for.
+  virtual absl::StatusOr<StoredGraph> ReadGraph(std::string_view collection,
+                                                std::string_view id,
+                                                bool with_labels) const = 0;
+  // Records and graphs (no labels) of one collection by id, ascending, after
+  // `after_id`. A damaged row is an item with its error, not the end.
+  virtual absl::StatusOr<std::vector<ScannedGraph>> ScanGraphs(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const = 0;
+  // Changes after `after_generation`, ascending. An unknown uid has none.
+  virtual absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
+      std::string_view collection_uid, int64_t after_generation,
+      int limit) const = 0;
+
+  // --- meshes and requests -----------------------------------------------
+  virtual absl::StatusOr<bool> IsMeshReferenced(
+      const Sha256Digest& sha256) const = 0;
+  // The first answer to PutShape's request when there was one.
+  // kRequestIdReused.
+  virtual absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
+      const RequestStamp& request) const = 0;
+
+  // Finishes the writes that wait, then refuses all others. Idempotent.
+  virtual absl::Status Close() = 0;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_CATALOG_H_

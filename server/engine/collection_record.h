@@ -1,0 +1,47 @@
+// A collection: shapes abstracted with the same settings, searched together.
+#ifndef ARGMESH_SERVER_ENGINE_COLLECTION_RECORD_H_
+#define ARGMESH_SERVER_ENGINE_COLLECTION_RECORD_H_
+
+#include <cstdint>
+#include <string>
+
+#include "absl/time/time.h"
+#include "core/abstraction/decomposition.h"
+
+namespace argmesh {
+
+// Fixed when the collection is created: graphs of different settings are not
+// comparable.
+struct CollectionSettings {
+  // Not kGiven: labels cannot be stored as a setting.
+  DecompositionKind decomposition = DecompositionKind::kBiharmonic;
+  int32_t vertex_budget = 3000;  // 100 .. 100,000 samples of a surface
+  int32_t uniform_cells = 32;    // 0 .. 1000 cells beside the components
+  bool store_meshes = true;      // false: keep graphs and labels only
+
+  friend bool operator==(const CollectionSettings&,
+                         const CollectionSettings&) = default;
+};
+
+struct CollectionRecord {
+  std::string id;
+  std::string uid;  // UUID; another one when the id is deleted and made again
+  std::string display_name;
+  CollectionSettings settings;
+  uint32_t graph_version = 0;  // kShapeGraphVersion when it was created
+  int64_t generation = 0;      // +1 for every shape written or deleted
+  int64_t shape_count = 0;     // in the same read as the generation
+  int64_t revision = 1;        // +1 for every update of the record itself
+  absl::Time create_time;
+  absl::Time update_time;
+
+  friend bool operator==(const CollectionRecord&,
+                         const CollectionRecord&) = default;
+};
+
+// Changes with every update of the record itself, not with its shapes.
+std::string CollectionEtag(const CollectionRecord& record);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_COLLECTION_RECORD_H_

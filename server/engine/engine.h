@@ -1,0 +1,111 @@
+// The shape-retrieval engine: everything the service does, without gRPC.
+//
+// Thread-safe. Every call blocks until it is done and is meant to run on
+// pool() (AddShape and searches by mesh as kCompute, other searches and
+// comparisons as kSearch, the rest as kQuick). A StopToken is checked at least
+// every 50 ms of work; a write that has reached the catalog completes.
+//
+// Repeats  equal state and query give bit-equal answers, whatever the threads.
+// Fails    with MakeError's statuses; the reasons are named at each function,
+//          besides kDeadlineExceeded, kCancelled, kDraining after Close,
+//          kStoreFull, kStoreUnavailable, kStoredDataDamaged, kInternal.
+#ifndef ARGMESH_SERVER_ENGINE_ENGINE_H_
+#define ARGMESH_SERVER_ENGINE_ENGINE_H_
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
+#include "server/engine/catalog.h"
+#include "server/engine/compute_pool.h"
+#include "server/engine/engine_options.h"
+#include "server/engine/mesh_store.h"
+#include "server/engine/mesh_upload.h"
+#include "server/engine/search_requests.h"
+#include "server/engine/shape_requests.h"
+
+namespace argmesh {
+
+// Of the search index as a whole.
+enum class IndexState { kLoading, kServing, kClosed };
+
+class Engine {
+ public:
+  // Starts to load the index in the background; returns before that is done.
+  static absl::StatusOr<std::unique_ptr<Engine>> Create(
+      const EngineOptions& options, std::unique_ptr<Catalog> catalog,
+      std::unique_ptr<MeshStore> meshes);
+  ~Engine();  // Close
+
+  ComputePool& pool();
+  const EngineOptions& options() const;
+
+  // --- collections: kNameInvalid, kFieldInvalid, kCollectionNotFound -------
+  // kCollectionExists, kRequestIdReused.
+  absl::StatusOr<CollectionRecord> CreateCollection(const NewCollection& spec);
+  absl::StatusOr<CollectionRecord> GetCollection(std::string_view id) const;
+  // kPageTokenInvalid.
+  absl::StatusOr<CollectionPage> ListCollections(const PageRequest& page) const;
+  // kEtagMismatch. The patch's update_time is set here.
+  absl::StatusOr<CollectionRecord> UpdateCollection(CollectionPatch patch);
+  // kCollectionNotEmpty, kEtagMismatch.
+  absl::Status DeleteCollection(const CollectionDelete& removal);
+
+  // --- shapes: also kShapeNotFound -----------------------------------------
+  // kMeshTooLarge from the announcement alone.
+  absl::StatusOr<std::unique_ptr<MeshUpload>> StartUpload(
+      const UploadAnnouncement& announced);
+  // Parses, abstracts, stores and indexes; searchable when it returns. The
+  // mesh is its bytes or Finish() of an upload. kMesh..., kShapeExists,
+  // kEtagMismatch, kRequestIdReused. What fails leaves nothing behind.
+  using MeshSource = std::variant<std::string, std::unique_ptr<StagedMesh>>;
+  absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
+                                      const StopToken& stop = {});
+  absl::StatusOr<ShapeRecord> GetShape(const ShapeRef& shape) const;
+  // kPageTokenInvalid.
+  absl::StatusOr<ShapePage> ListShapes(std::string_view collection,
+                                       const PageRequest& page) const;
+  // kEtagMismatch.
+  absl::StatusOr<ShapeRecord> UpdateShape(ShapePatch patch);
+  // The collection's generation after it. kEtagMismatch, kRequestIdReused.
+  absl::StatusOr<int64_t> DeleteShape(const ShapeRemoval& removal);
+  // kMeshNotStored.
+  absl::StatusOr<std::unique_ptr<MeshReader>> OpenMesh(
+      const ShapeRef& shape) const;
+  // kGraphVersionMismatch.
+  absl::StatusOr<ShapeGraphAnswer> GetGraph(const ShapeRef& shape,
+                                            bool with_labels) const;
+
+  // --- search --------------------------------------------------------------
+  // Every shape of the collection is matched. kIndexLoading,
+  // kGenerationNotReached, kMesh..., kGraphVersionMismatch, kGraphInvalid.
+  absl::StatusOr<SearchAnswer> Search(const SearchQuery& query,
+                                      const StopToken& stop = {}) const;
+  absl::StatusOr<ComparedShapes> Compare(const CompareQuery& query,
+                                         const StopToken& stop = {}) const;
+
+  // --- state ---------------------------------------------------------------
+  IndexState index_state() const;
+  // Called at every change, from any thread; at once with the present state.
+  void WatchIndexState(std::function<void(IndexState)> watcher);
+  // Blocks until the index serves (OK), is closed or `stop` says so.
+  absl::Status WaitUntilServing(const StopToken& stop = {}) const;
+  std::vector<CollectionHealth> Health() const;  // by id
+
+  // Refuses new work, waits for what runs, closes the catalog. Idempotent.
+  absl::Status Close();
+
+ private:
+  class Parts;
+  explicit Engine(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_ENGINE_H_
