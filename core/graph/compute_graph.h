@@ -28,9 +28,19 @@ absl::StatusOr<ComputedGraph> ComputeShapeGraph(
     const TriangleMesh& mesh, const AbstractionOptions& options = {},
     const StopToken& stop = {});
 
-// The attributes alone, of a surface already abstracted.
-absl::StatusOr<ShapeGraph> BuildShapeGraph(const SurfaceAbstraction& surface,
-                                           const StopToken& stop = {});
+// The attributes alone, of a surface already abstracted. `kind` is recorded
+// in the graph.
+//
+// Fails    kInternal  the surface is inconsistent or not finite
+//          kCancelled, kDeadlineExceeded
+// Cost     about 25 ms for 3,000 samples: one Dijkstra for each finest region
+//          and uniform cell.
+absl::StatusOr<ShapeGraph> BuildShapeGraph(
+    const SurfaceAbstraction& surface, const StopToken& stop = {},
+    DecompositionKind kind = DecompositionKind::kBiharmonic);
+
+// Of every input face: the nodes its sample belongs to.
+FaceLabels BuildFaceLabels(const SurfaceAbstraction& surface);
 
 }  // namespace argmesh
 
