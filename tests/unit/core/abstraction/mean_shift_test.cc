@@ -92,10 +92,10 @@ TEST(RunMeanShift, StopsWhenCancelled) {
   source.request_stop();
   const Clusters clusters =
       MakeClusters(Eigen::MatrixXf::Zero(2, 1), 20, 0.2F, 3);
-  EXPECT_THAT(RunMeanShift(clusters.points, clusters.masses, {},
-                           StopToken(source.get_token(),
-                                     absl::InfiniteFuture())),
-              StatusIs(absl::StatusCode::kCancelled, testing::_));
+  EXPECT_THAT(
+      RunMeanShift(clusters.points, clusters.masses, {},
+                   StopToken(source.get_token(), absl::InfiniteFuture())),
+      StatusIs(absl::StatusCode::kCancelled, testing::_));
 }
 
 }  // namespace

@@ -55,8 +55,8 @@ TEST(BuildCutTree, OfOneNodeIsALeaf) {
 TEST(BuildCutTree, ValueDoesNotChangeWithTheScaleOfLengthAndArea) {
   CutProblem problem = MakeTwoCliques(0.3);
   const double value = BuildCutTree(problem)[0].ncut;
-  problem.weights *= 7;      // lengths times 7,
-  problem.masses *= 7 * 7;   // areas times 49
+  problem.weights *= 7;     // lengths times 7,
+  problem.masses *= 7 * 7;  // areas times 49
   EXPECT_NEAR(BuildCutTree(problem)[0].ncut, value, 1e-12);
 }
 

@@ -21,8 +21,7 @@ SurfaceGraph MakePath(int n) {
   return graph;
 }
 
-RegionGraph Build(const SurfaceGraph& graph,
-                  const std::vector<int32_t>& labels,
+RegionGraph Build(const SurfaceGraph& graph, const std::vector<int32_t>& labels,
                   const RegionOptions& options,
                   std::vector<double> weights = {}) {
   if (weights.empty()) weights.assign(graph.targets.size(), 1.0);
@@ -35,11 +34,9 @@ RegionGraph Build(const SurfaceGraph& graph,
 TEST(BuildRegionGraph, SeparatesPiecesOfOneLabelThatDoNotTouch) {
   RegionOptions options;
   options.min_area = 0;
-  const RegionGraph regions =
-      Build(MakePath(6), {7, 7, 7, 2, 7, 7}, options);
+  const RegionGraph regions = Build(MakePath(6), {7, 7, 7, 2, 7, 7}, options);
   EXPECT_EQ(regions.num_regions(), 3);
-  EXPECT_EQ(regions.region_of_sample,
-            (std::vector<int32_t>{0, 0, 0, 2, 1, 1}));
+  EXPECT_EQ(regions.region_of_sample, (std::vector<int32_t>{0, 0, 0, 2, 1, 1}));
   EXPECT_DOUBLE_EQ(regions.areas[0], 0.5);
   EXPECT_DOUBLE_EQ(regions.borders(0, 2), 1);
   EXPECT_DOUBLE_EQ(regions.borders(0, 1), 0);
@@ -71,8 +68,7 @@ TEST(BuildRegionGraph, KeepsAtMostTheAskedNumberOfRegions) {
   RegionOptions options;
   options.min_area = 0;
   options.max_regions = 3;
-  EXPECT_EQ(Build(MakePath(8), {0, 1, 2, 3, 4, 5, 6, 7}, options)
-                .num_regions(),
+  EXPECT_EQ(Build(MakePath(8), {0, 1, 2, 3, 4, 5, 6, 7}, options).num_regions(),
             3);
 }
 
