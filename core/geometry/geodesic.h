@@ -5,13 +5,12 @@
 #ifndef ARGMESH_CORE_GEOMETRY_GEODESIC_H_
 #define ARGMESH_CORE_GEOMETRY_GEODESIC_H_
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/geometry/surface_graph.h"
 
@@ -31,8 +30,7 @@ class GeodesicSolver {
   // Vertices within `max_distance` of `source`, nearest first, ties by index;
   // valid until the next call. Cost O(k log k) for k reached vertices.
   std::span<const ReachedVertex> FindWithin(
-      int source,
-      float max_distance = std::numeric_limits<float>::infinity());
+      int source, float max_distance = std::numeric_limits<float>::infinity());
 
   // The same, over the vertices v with region[v] == region[source] only.
   std::span<const ReachedVertex> FindWithinRegion(

@@ -25,9 +25,9 @@
 namespace argmesh {
 
 struct ShapeDiameterOptions {
-  int num_rays = 24;             // 3 .. 1000
-  double cone_half_angle = 60;   // degrees, 1 .. 89
-  int smoothing_steps = 3;       // >= 0
+  int num_rays = 24;            // 3 .. 1000
+  double cone_half_angle = 60;  // degrees, 1 .. 89
+  int smoothing_steps = 3;      // >= 0
 };
 
 absl::StatusOr<Eigen::VectorXd> ComputeShapeDiameter(

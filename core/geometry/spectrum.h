@@ -2,10 +2,9 @@
 #ifndef ARGMESH_CORE_GEOMETRY_SPECTRUM_H_
 #define ARGMESH_CORE_GEOMETRY_SPECTRUM_H_
 
-#include <vector>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/geometry/surface_graph.h"
@@ -14,9 +13,9 @@
 namespace argmesh {
 
 struct CotangentOptions {
-  double max_cotangent = 5;   // each cotangent is clamped to +- this, > 0
-  double min_weight = 0.01;   // of a link after summing, >= 0
-  double max_weight = 1e30;   // of a link after summing
+  double max_cotangent = 5;    // each cotangent is clamped to +- this, > 0
+  double min_weight = 0.01;    // of a link after summing, >= 0
+  double max_weight = 1e30;    // of a link after summing
   double bridge_weight = 0.1;  // of a bridge link, >= 0
 };
 
