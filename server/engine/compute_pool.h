@@ -64,7 +64,7 @@ class ComputePool {
 
  private:
   class State;
-  std::shared_ptr<State> state_;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace argmesh

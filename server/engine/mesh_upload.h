@@ -23,6 +23,10 @@ struct UploadAnnouncement {
   std::optional<Sha256Digest> sha256;  // checked by Finish when given
 };
 
+// MESH_DIGEST_MISMATCH unless equal.
+absl::Status CheckDigest(const Sha256Digest& announced,
+                         const Sha256Digest& received);
+
 class MeshUpload {
  public:
   MeshUpload(UploadAnnouncement announced, std::unique_ptr<MeshWriter> writer);

@@ -75,9 +75,8 @@ struct CompareQuery {
   QueryShape a;
   QueryShape b;
   MatchMode mode = MatchMode::kGlobal;
-  // Settings for operands that are meshes when neither is a stored shape.
-  CollectionSettings settings;
-  bool graphs = false;  // fill ComparedShapes::a and b
+  std::string collection;  // whose settings turn meshes into graphs
+  bool graphs = false;     // fill ComparedShapes::a and b
 };
 
 struct ComparedShapes {

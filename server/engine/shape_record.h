@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "absl/time/time.h"
 #include "core/base/sha256.h"
@@ -20,6 +21,21 @@ enum class ShapeState {
   kProcessing = 2,
   kActive = 3,
   kFailed = 4,
+};
+
+// The stored graph in numbers.
+struct GraphSummary {
+  struct Level {
+    std::string name;  // as LevelNames
+    int32_t nodes = 0;
+    int32_t edges = 0;
+    friend bool operator==(const Level&, const Level&) = default;
+  };
+  uint32_t version = 0;
+  std::vector<Level> levels;  // coarse to fine, then "uniform" if it is there
+  int32_t modes = 0;
+
+  friend bool operator==(const GraphSummary&, const GraphSummary&) = default;
 };
 
 struct ShapeRecord {
@@ -38,6 +54,7 @@ struct ShapeRecord {
   MeshFormat format = MeshFormat::kUnknown;
   bool mesh_stored = false;  // the file can be downloaded
   MeshReport report;
+  GraphSummary graph;
 
   int64_t generation = 0;  // of the collection, when last written
   absl::Time create_time;
