@@ -1,0 +1,27 @@
+// How alike the nodes of two levels are, and the score of their best
+// assignment.
+#ifndef ARGMESH_CORE_MATCHING_LEVEL_SIMILARITY_H_
+#define ARGMESH_CORE_MATCHING_LEVEL_SIMILARITY_H_
+
+#include <vector>
+
+#include "core/matching/packed_graph.h"
+
+namespace argmesh {
+
+// The distance at which the similarity of two nodes falls to 1/e.
+inline constexpr float kSimilarityScale = 0.4F;
+
+// exp(-d / kSimilarityScale) of all pairs of nodes, a row for each node of
+// `a`. Transposed to the bit when the levels are swapped.
+std::vector<float> NodeSimilarities(const PackedLevel& a, const PackedLevel& b,
+                                    RowKind kind);
+
+// The sum of the similarities of the best one-to-one assignment, weighted with
+// the mean of both nodes' weights. 0 .. 1, 1 for equal levels; symmetric to
+// the bit. Both levels have a node.
+double ScoreLevels(const PackedLevel& a, const PackedLevel& b, RowKind kind);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_CORE_MATCHING_LEVEL_SIMILARITY_H_

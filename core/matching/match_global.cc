@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/matching/coverage.h"
+#include "core/matching/level_similarity.h"
+#include "core/matching/match.h"
+#include "core/matching/packed_graph.h"
+#include "core/matching/spectral_matching.h"
+
+namespace argmesh {
+namespace {
+
+// Two levels that meet, and what came of it.
+struct Meeting {
+  size_t query_level;
+  size_t target_level;
+  bool scored;  // counts for the global score
+  double score = 0;
+};
+
+// Level k with level k, the finest with the finest, uniform with uniform.
+// Coarse to fine, then uniform.
+std::vector<Meeting> PairLevels(const MatchableGraph::Impl& query,
+                                const MatchableGraph::Impl& target,
+                                const MatchOptions& options) {
+  const bool all = options.scored_levels == ScoredLevels::kAll;
+  std::vector<Meeting> meetings;
+  const size_t n = std::min(query.levels.size(), target.levels.size());
+  for (size_t l = 0; l + 1 < n; ++l) meetings.push_back({l, l, all});
+  if (n > 0) {
+    meetings.push_back(
+        {query.levels.size() - 1, target.levels.size() - 1, true});
+  }
+  if (query.uniform.num_nodes() > 0 && target.uniform.num_nodes() > 0) {
+    meetings.push_back({query.levels.size(), target.levels.size(), true});
+  }
+  if (!options.all_level_scores) {
+    std::erase_if(meetings, [](const Meeting& m) { return !m.scored; });
+  }
+  return meetings;
+}
+
+// The highest score; levels of one node only when there is no other, the
+// finest components first among equals.
+const Meeting* ChooseBest(const std::vector<Meeting>& meetings,
+                          const MatchableGraph::Impl& query,
+                          const MatchableGraph::Impl& target) {
+  const auto is_trivial = [&](const Meeting& m) {
+    return query.Level(m.query_level).num_nodes() < 2 ||
+           target.Level(m.target_level).num_nodes() < 2;
+  };
+  const auto is_uniform = [&](const Meeting& m) {
+    return m.query_level == query.levels.size();
+  };
+  const Meeting* best = nullptr;
+  for (auto m = meetings.rbegin(); m != meetings.rend(); ++m) {
+    const bool better = best == nullptr ||
+                        (is_trivial(*best) && !is_trivial(*m)) ||
+                        (is_trivial(*best) == is_trivial(*m) &&
+                         (m->score > best->score ||
+                          (m->score == best->score && is_uniform(*best))));
+    if (better) best = &*m;
+  }
+  return best;
+}
+
+void FillCorrespondence(const PackedLevel& query, const PackedLevel& target,
+                        RowKind kind, MatchResult& result) {
+  result.pairs = MatchSpectral(query, target, kind);
+  result.query_coverage = QueryCoverage(query, result.pairs);
+  result.target_coverage = TargetCoverage(target, result.pairs);
+}
+
+}  // namespace
+
+MatchResult MatchGlobal(const MatchableGraph& query,
+                        const MatchableGraph& target,
+                        const MatchOptions& options) {
+  const MatchableGraph::Impl& q = query.impl();
+  const MatchableGraph::Impl& t = target.impl();
+  const RowKind kind = options.attributes == AttributeSet::kTuple
+                           ? RowKind::kTuple
+                           : RowKind::kFull;
+  MatchResult result;
+  std::vector<Meeting> meetings = PairLevels(q, t, options);
+  double sum = 0;
+  int scored = 0;
+  for (Meeting& m : meetings) {
+    m.score =
+        ScoreLevels(q.Level(m.query_level), t.Level(m.target_level), kind);
+    result.level_scores.push_back(
+        {q.names[m.query_level], static_cast<float>(m.score)});
+    if (!m.scored) continue;
+    sum += m.score;
+    ++scored;
+  }
+  if (scored > 0) result.score = sum / scored;
+  const Meeting* best = ChooseBest(meetings, q, t);
+  if (best == nullptr) return result;
+  result.best_level = q.names[best->query_level];
+  result.best_query_level = static_cast<int32_t>(best->query_level);
+  result.best_target_level = static_cast<int32_t>(best->target_level);
+  if (options.correspondence) {
+    FillCorrespondence(q.Level(best->query_level), t.Level(best->target_level),
+                       kind, result);
+  }
+  return result;
+}
+
+}  // namespace argmesh
