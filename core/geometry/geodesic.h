@@ -62,7 +62,8 @@ FarthestPointCells ComputeFarthestPointCells(const SurfaceGraph& graph,
 
 // Average geodesic distance of each vertex to the surface, over `num_sources`
 // farthest-point samples weighted by their cells' areas (sum of `areas`
-// normalised to 1). Source: Hilaga et al., "Topology Matching", SIGGRAPH 2001.
+// normalised to 1). A sample that cannot be reached counts as the largest
+// finite distance. Source: Hilaga et al., "Topology Matching", SIGGRAPH 2001.
 Eigen::VectorXd ComputeAverageGeodesicDistance(const SurfaceGraph& graph,
                                                const Eigen::VectorXd& areas,
                                                int num_sources = 64);

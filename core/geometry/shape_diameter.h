@@ -3,7 +3,9 @@
 // Rays in a cone around the inward normal; hits on the inner side of a face
 // only; hits farther than one standard deviation from the median dropped;
 // cosine-weighted mean. Vertices with fewer than 3 hits take the mean of their
-// neighbours. Smoothed over the graph three times.
+// neighbours, or of all vertices when those have none either; a surface that
+// no ray hits, such as a flat sheet, has 0.1 sqrt(area) everywhere. Smoothed
+// over the graph three times.
 //
 // Source   Shapira, Shamir, Cohen-Or, "Consistent Mesh Partitioning and
 //          Skeletonisation Using the Shape Diameter Function", Visual Computer
@@ -11,7 +13,9 @@
 // Input    an oriented mesh; `normals` unit and outward; any unit.
 // Output   n lengths > 0.
 // Repeats  equal input gives bit-equal output; nothing is random.
-// Fails    kInternal  the ray tracer could not be set up
+// Fails    kInvalidArgument     an option outside its range
+//          kFailedPrecondition  no face of positive area
+//          kInternal            the ray tracer could not be set up
 // Cost     O(n rays log m). Thread-safe.
 #ifndef ARGMESH_CORE_GEOMETRY_SHAPE_DIAMETER_H_
 #define ARGMESH_CORE_GEOMETRY_SHAPE_DIAMETER_H_
