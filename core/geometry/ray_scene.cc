@@ -34,9 +34,9 @@ void KeepExits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-absl::Status DeviceError(RTCDevice device) {
-  return absl::InternalError(absl::StrFormat(
-      "ray tracer: error %d", static_cast<int>(rtcGetDeviceError(device))));
+absl::Status DeviceError(RTCError error) {
+  return absl::InternalError(
+      absl::StrFormat("ray tracer: error %d", static_cast<int>(error)));
 }
 
 // False when the buffers could not be allocated.
