@@ -74,6 +74,9 @@ class Catalog {
   virtual absl::StatusOr<std::vector<ScannedGraph>> ScanGraphs(
       std::string_view collection_uid, std::string_view after_id,
       int limit) const = 0;
+  // One item of a scan. kShapeNotFound.
+  virtual absl::StatusOr<ScannedGraph> FindGraph(
+      std::string_view collection_uid, std::string_view id) const = 0;
   // Changes after `after_generation`, ascending. An unknown uid has none.
   virtual absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,

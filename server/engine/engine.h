@@ -14,8 +14,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -24,15 +24,13 @@
 #include "server/engine/catalog.h"
 #include "server/engine/compute_pool.h"
 #include "server/engine/engine_options.h"
+#include "server/engine/index_state.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/mesh_upload.h"
 #include "server/engine/search_requests.h"
 #include "server/engine/shape_requests.h"
 
 namespace argmesh {
-
-// Of the search index as a whole.
-enum class IndexState { kLoading, kServing, kClosed };
 
 class Engine {
  public:
@@ -63,7 +61,6 @@ class Engine {
   // Parses, abstracts, stores and indexes; searchable when it returns. The
   // mesh is its bytes or Finish() of an upload. kMesh..., kShapeExists,
   // kEtagMismatch, kRequestIdReused. What fails leaves nothing behind.
-  using MeshSource = std::variant<std::string, std::unique_ptr<StagedMesh>>;
   absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
                                       const StopToken& stop = {});
   absl::StatusOr<ShapeRecord> GetShape(const ShapeRef& shape) const;

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <variant>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -17,6 +19,9 @@
 #include "server/engine/mesh_store.h"
 
 namespace argmesh {
+
+// A complete mesh: its bytes, or what an upload finished as.
+using MeshSource = std::variant<std::string, std::unique_ptr<StagedMesh>>;
 
 struct UploadAnnouncement {
   int64_t size_bytes = 0;              // > 0

@@ -1,0 +1,62 @@
+// The shapes of one collection in memory, changed in place and published as
+// immutable snapshots.
+//
+// Put, PutUnusable, Remove and Publish belong to one thread at a time;
+// snapshot() is thread-safe. Cost of a change: one block and, at Publish, one
+// pointer for each block.
+#ifndef ARGMESH_SERVER_ENGINE_COLLECTION_INDEX_H_
+#define ARGMESH_SERVER_ENGINE_COLLECTION_INDEX_H_
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "server/engine/collection_record.h"
+#include "server/engine/gallery_snapshot.h"
+
+namespace argmesh {
+
+class CollectionIndex {
+ public:
+  enum class Unusable { kDamaged, kOutdated };
+
+  // Empty, nothing published.
+  explicit CollectionIndex(const CollectionRecord& collection);
+
+  // Takes the place of whatever the id stood for before.
+  void Put(GalleryEntryPtr entry);
+  void PutUnusable(const std::string& id, Unusable why);
+  void Remove(const std::string& id);
+
+  // Makes the changes so far visible as those of `generation`.
+  void Publish(int64_t generation);
+
+  // Null before the first Publish.
+  GallerySnapshotPtr snapshot() const;
+
+ private:
+  struct Block {
+    std::shared_ptr<GalleryBlock> entries;
+    bool published = false;  // shared with a snapshot: copied before a change
+  };
+
+  GalleryBlock& MutableBlock(size_t position);
+  void RemoveEntry(const std::string& id);
+
+  const std::string collection_;
+  const std::string collection_uid_;
+  const CollectionSettings settings_;
+  std::vector<Block> blocks_;
+  std::unordered_map<std::string, size_t> positions_;  // over all blocks
+  std::unordered_map<std::string, Unusable> unusable_;
+
+  mutable std::mutex mutex_;
+  GallerySnapshotPtr snapshot_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_COLLECTION_INDEX_H_

@@ -1,0 +1,45 @@
+// What an Engine is made of; of no use to anybody else.
+#ifndef ARGMESH_SERVER_ENGINE_ENGINE_PARTS_H_
+#define ARGMESH_SERVER_ENGINE_ENGINE_PARTS_H_
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "absl/status/status.h"
+#include "server/engine/catalog.h"
+#include "server/engine/compute_pool.h"
+#include "server/engine/engine.h"
+#include "server/engine/engine_options.h"
+#include "server/engine/gallery.h"
+#include "server/engine/ingest.h"
+#include "server/engine/mesh_store.h"
+#include "server/engine/shape_search.h"
+
+namespace argmesh {
+
+class Engine::Parts {
+ public:
+  Parts(const EngineOptions& engine_options,
+        std::unique_ptr<Catalog> engine_catalog,
+        std::unique_ptr<MeshStore> engine_meshes);
+
+  absl::Status CheckOpen() const;  // kDraining
+
+  // In the order they are made; each may use those before it.
+  const EngineOptions options;
+  const std::unique_ptr<Catalog> catalog;
+  const std::unique_ptr<MeshStore> meshes;
+  ComputePool pool;
+  Gallery gallery;
+  Ingest ingest;
+  ShapeSearch search;
+  std::atomic<bool> closed{false};
+  std::mutex close_mutex;
+  std::jthread startup;  // loads the gallery, then sweeps the mesh store
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_ENGINE_PARTS_H_

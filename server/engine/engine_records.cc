@@ -1,0 +1,177 @@
+// The engine's calls that read and change records.
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "core/base/status_macros.h"
+#include "core/graph/shape_graph.h"
+#include "server/engine/engine.h"
+#include "server/engine/engine_parts.h"
+#include "server/engine/page_token.h"
+#include "server/engine/record_codec.h"
+#include "server/engine/request_rules.h"
+#include "server/engine/request_stamp.h"
+#include "server/engine/uid.h"
+
+namespace argmesh {
+namespace {
+
+// Stored times have microseconds.
+absl::Time NowInMicros() {
+  return absl::FromUnixMicros(absl::ToUnixMicros(absl::Now()));
+}
+
+// Cuts `records`, of which one more than a page may hold was read, to a page;
+// returns the token of the next page.
+template <typename Record, typename Size>
+std::string CutPage(std::vector<Record>& records, size_t page_size,
+                    int64_t max_bytes, const std::string& list, Size size_of) {
+  size_t kept = 0;
+  int64_t bytes = 0;
+  while (kept < std::min(records.size(), page_size)) {
+    bytes += static_cast<int64_t>(size_of(records[kept]));
+    if (kept > 0 && bytes > max_bytes) break;
+    ++kept;
+  }
+  if (kept == records.size()) return "";
+  records.resize(kept);
+  return MakePageToken(list, records.back().id);
+}
+
+}  // namespace
+
+absl::StatusOr<CollectionRecord> Engine::CreateCollection(
+    const NewCollection& spec) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckNewCollection(spec));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const RequestStamp request,
+      StampRequest(spec.request, "CreateCollection",
+                   {spec.id, spec.display_name,
+                    SerializeCollectionSettings(spec.settings)},
+                   absl::Now() + parts_->options.request_memory));
+  CollectionRecord record;
+  record.id = spec.id;
+  record.uid = MakeUid();
+  record.display_name = spec.display_name;
+  record.settings = spec.settings;
+  record.graph_version = kShapeGraphVersion;
+  record.create_time = NowInMicros();
+  record.update_time = record.create_time;
+  const auto lock = parts_->gallery.LockCollections();
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRecord stored,
+                           parts_->catalog->InsertCollection(record, request));
+  // An answer to a retry has the first call's uid.
+  if (stored.uid == record.uid) parts_->gallery.Add(stored);
+  return stored;
+}
+
+absl::StatusOr<CollectionRecord> Engine::GetCollection(
+    std::string_view id) const {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", id));
+  return parts_->catalog->GetCollection(id);
+}
+
+absl::StatusOr<CollectionPage> Engine::ListCollections(
+    const PageRequest& page) const {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  const std::string list = "collections";
+  ARGMESH_ASSIGN_OR_RETURN(const int size, CheckPageSize(page.page_size));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string after,
+                           ParsePageToken(list, page.page_token));
+  CollectionPage answer;
+  ARGMESH_ASSIGN_OR_RETURN(answer.collections,
+                           parts_->catalog->ListCollections(after, size + 1));
+  answer.next_page_token =
+      CutPage(answer.collections, static_cast<size_t>(size), page.max_bytes,
+              list, [](const CollectionRecord& record) {
+                return SerializeCollectionRecord(record).size();
+              });
+  return answer;
+}
+
+absl::StatusOr<CollectionRecord> Engine::UpdateCollection(
+    CollectionPatch patch) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", patch.id));
+  if (patch.display_name) {
+    ARGMESH_RETURN_IF_ERROR(
+        CheckText("display_name", *patch.display_name, kMaxDisplayNameBytes));
+  }
+  patch.update_time = NowInMicros();
+  return parts_->catalog->UpdateCollection(patch);
+}
+
+absl::Status Engine::DeleteCollection(const CollectionDelete& removal) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", removal.id));
+  CollectionDeleted deleted;
+  {
+    const auto lock = parts_->gallery.LockCollections();
+    ARGMESH_ASSIGN_OR_RETURN(deleted,
+                             parts_->catalog->DeleteCollection(removal));
+    parts_->gallery.Remove(deleted.uid);
+  }
+  parts_->ingest.RemoveMeshes(deleted.unreferenced);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<ShapeRecord> Engine::GetShape(const ShapeRef& shape) const {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckShapeRef(shape));
+  return parts_->catalog->GetShape(shape.collection, shape.id);
+}
+
+absl::StatusOr<ShapePage> Engine::ListShapes(std::string_view collection,
+                                             const PageRequest& page) const {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", collection));
+  const std::string list = "shapes/" + std::string(collection);
+  ARGMESH_ASSIGN_OR_RETURN(const int size, CheckPageSize(page.page_size));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string after,
+                           ParsePageToken(list, page.page_token));
+  ShapePage answer;
+  ARGMESH_ASSIGN_OR_RETURN(
+      answer.shapes, parts_->catalog->ListShapes(collection, after, size + 1));
+  answer.next_page_token =
+      CutPage(answer.shapes, static_cast<size_t>(size), page.max_bytes, list,
+              [](const ShapeRecord& record) {
+                return SerializeShapeRecord(record).size();
+              });
+  return answer;
+}
+
+absl::StatusOr<ShapeRecord> Engine::UpdateShape(ShapePatch patch) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckPatch(patch));
+  patch.update_time = NowInMicros();
+  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten written,
+                           parts_->catalog->UpdateShape(patch));
+  parts_->gallery.Follow(patch.collection, written.collection_uid,
+                         written.record.generation, nullptr);
+  return std::move(written.record);
+}
+
+absl::StatusOr<int64_t> Engine::DeleteShape(const ShapeRemoval& removal) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckShapeRef(removal.shape));
+  ShapeDelete request;
+  request.collection = removal.shape.collection;
+  request.id = removal.shape.id;
+  request.etag = removal.etag;
+  ARGMESH_ASSIGN_OR_RETURN(
+      request.request,
+      StampRequest(removal.request, "DeleteShape",
+                   {request.collection, request.id, request.etag},
+                   absl::Now() + parts_->options.request_memory));
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
+                           parts_->catalog->DeleteShape(request));
+  parts_->gallery.Follow(request.collection, deleted.collection_uid,
+                         deleted.generation, nullptr);
+  parts_->ingest.RemoveMeshes(deleted.unreferenced);
+  return deleted.generation;
+}
+
+}  // namespace argmesh

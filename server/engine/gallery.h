@@ -1,0 +1,89 @@
+// Every collection in memory, kept in step with the catalog.
+//
+// Load reads what is stored; after each committed write Follow applies the
+// catalog's changes in the order of their generations, so that a write that
+// returned is seen by every later search. A collection that cannot be read is
+// reported and does not stop the others; a damaged shape is left out and
+// counted. Thread-safe.
+#ifndef ARGMESH_SERVER_ENGINE_GALLERY_H_
+#define ARGMESH_SERVER_ENGINE_GALLERY_H_
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
+#include "server/engine/catalog.h"
+#include "server/engine/compute_pool.h"
+#include "server/engine/gallery_snapshot.h"
+#include "server/engine/index_state.h"
+#include "server/engine/shape_requests.h"
+
+namespace argmesh {
+
+class Gallery {
+ public:
+  // Both must outlive the gallery.
+  Gallery(const Catalog& catalog, ComputePool& pool);
+  ~Gallery();
+
+  // Once, for all that is stored; then the state is kServing.
+  void Load(const StopToken& stop);
+  // The state is kClosed; waits for nothing.
+  void Close();
+
+  // Held while a collection is created or deleted in the catalog and here.
+  std::unique_lock<std::mutex> LockCollections();
+  void Add(const CollectionRecord& collection);
+  void Remove(std::string_view collection_uid);
+
+  // A write of `generation` was committed. `entry` is what it wrote, where
+  // that is known; it saves reading it back.
+  void Follow(std::string_view collection, std::string_view collection_uid,
+              int64_t generation, GalleryEntryPtr entry);
+
+  // kIndexLoading, kCollectionNotFound, kGenerationNotReached, or why the
+  // collection could not be read.
+  absl::StatusOr<GallerySnapshotPtr> Snapshot(std::string_view collection,
+                                              int64_t min_generation) const;
+
+  IndexState state() const;
+  void Watch(std::function<void(IndexState)> watcher);
+  absl::Status WaitUntilServing(const StopToken& stop) const;
+  std::vector<CollectionHealth> Health() const;
+
+ private:
+  class Slot;
+  using SlotPtr = std::shared_ptr<Slot>;
+
+  SlotPtr FindSlot(std::string_view collection) const;
+  absl::Status AddStored();
+  absl::Status LoadSlot(Slot& slot, const StopToken& stop);
+  void CatchUp(Slot& slot) const;
+  absl::Status ApplyChanges(Slot& slot) const;
+  absl::Status ApplyChange(Slot& slot, const ShapeChange& change) const;
+  void SetState(IndexState state);
+
+  const Catalog& catalog_;
+  ComputePool& pool_;
+  std::mutex collections_mutex_;
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  IndexState state_ = IndexState::kLoading;
+  std::map<std::string, SlotPtr, std::less<>> slots_;
+
+  std::mutex watch_mutex_;  // held while watchers run: they see the order
+  std::vector<std::function<void(IndexState)>> watchers_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_GALLERY_H_

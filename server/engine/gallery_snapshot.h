@@ -1,0 +1,43 @@
+// One collection's shapes ready for matching, as of one generation.
+//
+// A snapshot is immutable and shared; a search keeps the one it began with.
+#ifndef ARGMESH_SERVER_ENGINE_GALLERY_SNAPSHOT_H_
+#define ARGMESH_SERVER_ENGINE_GALLERY_SNAPSHOT_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/matching/match.h"
+#include "server/engine/collection_record.h"
+#include "server/engine/shape_record.h"
+
+namespace argmesh {
+
+struct GalleryEntry {
+  ShapeRecord record;
+  MatchableGraph graph;
+};
+using GalleryEntryPtr = std::shared_ptr<const GalleryEntry>;
+
+// At most kGalleryBlockSize entries; a change copies one block, not all.
+using GalleryBlock = std::vector<GalleryEntryPtr>;
+inline constexpr size_t kGalleryBlockSize = 128;
+
+struct GallerySnapshot {
+  std::string collection;
+  std::string collection_uid;
+  CollectionSettings settings;
+  int64_t generation = 0;
+  int64_t size = 0;             // entries
+  int64_t damaged_shapes = 0;   // not among the entries
+  int64_t outdated_shapes = 0;  // not among the entries
+  // Every block but the last is full. The order has no meaning.
+  std::vector<std::shared_ptr<const GalleryBlock>> blocks;
+};
+using GallerySnapshotPtr = std::shared_ptr<const GallerySnapshot>;
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_GALLERY_SNAPSHOT_H_

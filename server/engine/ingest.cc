@@ -1,0 +1,217 @@
+#include "server/engine/ingest.h"
+
+#include <optional>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "core/base/status_macros.h"
+#include "core/graph/graph_codec.h"
+#include "server/engine/error_reason.h"
+#include "server/engine/mesh_upload.h"
+#include "server/engine/request_rules.h"
+#include "server/engine/request_stamp.h"
+#include "server/engine/uid.h"
+
+namespace argmesh {
+namespace {
+
+// Everything the request asks for (StampRequest).
+std::vector<std::string> RequestFields(const NewShape& shape,
+                                       const Sha256Digest& sha256) {
+  std::vector<std::string> fields = {
+      shape.collection,
+      shape.id,
+      shape.display_name,
+      shape.source_uri,
+      std::string(MeshFormatName(shape.format)),
+      ToHex(sha256),
+      absl::StrFormat("%d", static_cast<int>(shape.if_exists)),
+      shape.etag};
+  for (const auto& [key, value] : shape.metadata) {
+    fields.push_back(key);
+    fields.push_back(value);
+  }
+  return fields;
+}
+
+ShapeRecord RecordOf(const NewShape& shape, const AnalyzedMesh& analyzed) {
+  ShapeRecord record;
+  record.collection = shape.collection;
+  record.id = shape.id;
+  record.uid = MakeUid();
+  record.display_name = shape.display_name;
+  record.source_uri = shape.source_uri;
+  record.metadata = shape.metadata;
+  record.format = analyzed.format;
+  record.report = analyzed.computed.report;
+  record.graph = SummarizeGraph(analyzed.computed.graph);
+  record.create_time = absl::FromUnixMicros(absl::ToUnixMicros(absl::Now()));
+  record.update_time = record.create_time;
+  return record;
+}
+
+}  // namespace
+
+struct Ingest::Source {
+  std::string bytes;
+  std::unique_ptr<StagedMesh> staged;  // null: `bytes` came with the call
+  Sha256Digest sha256{};
+};
+
+Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
+               MeshStore& meshes, Gallery& gallery)
+    : options_(options),
+      catalog_(catalog),
+      meshes_(meshes),
+      gallery_(gallery) {}
+
+MeshStore::IsReferenced Ingest::is_referenced() const {
+  return [this](const Sha256Digest& sha256) {
+    return catalog_.IsMeshReferenced(sha256);
+  };
+}
+
+void Ingest::RemoveMeshes(const std::vector<Sha256Digest>& unreferenced) {
+  for (const Sha256Digest& sha256 : unreferenced) {
+    (void)meshes_.RemoveUnreferenced(sha256, is_referenced());
+  }
+}
+
+absl::StatusOr<Ingest::Source> Ingest::Open(const NewShape& shape,
+                                            MeshSource mesh) const {
+  Source source;
+  if (auto* staged = std::get_if<std::unique_ptr<StagedMesh>>(&mesh)) {
+    source.staged = std::move(*staged);
+    ARGMESH_RETURN_IF_ERROR(
+        CheckMeshSize(source.staged->size_bytes(), options_.mesh_limits));
+    source.sha256 = source.staged->sha256();
+  } else {
+    source.bytes = std::get<std::string>(std::move(mesh));
+    ARGMESH_RETURN_IF_ERROR(CheckMeshSize(
+        static_cast<int64_t>(source.bytes.size()), options_.mesh_limits));
+    source.sha256 = ComputeSha256(source.bytes);
+  }
+  if (shape.sha256) {
+    ARGMESH_RETURN_IF_ERROR(CheckDigest(*shape.sha256, source.sha256));
+  }
+  return source;
+}
+
+// What can be answered without computing anything; the catalog decides again
+// when the row is written.
+absl::StatusOr<std::optional<AddedShape>> Ingest::FindStored(
+    const NewShape& shape, const Sha256Digest& sha256,
+    const RequestStamp& request) const {
+  ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> answered,
+                           catalog_.FindPutShape(request));
+  if (answered) {
+    gallery_.Follow(shape.collection, answered->collection_uid,
+                    answered->record.generation, nullptr);
+    return AddedShape{std::move(answered->record), true};
+  }
+  if (shape.if_exists == IfExists::kReplace) return std::nullopt;
+  absl::StatusOr<ShapeRecord> stored =
+      catalog_.GetShape(shape.collection, shape.id);
+  if (absl::IsNotFound(stored.status())) return std::nullopt;
+  ARGMESH_RETURN_IF_ERROR(stored.status());
+  if (shape.if_exists == IfExists::kReturnSame && stored->sha256 == sha256) {
+    return AddedShape{*std::move(stored), true};
+  }
+  return MakeError(ErrorReason::kShapeExists,
+                   absl::StrFormat("collection %s has a shape %s already",
+                                   shape.collection, shape.id),
+                   {{"collection", shape.collection}, {"shape", shape.id}});
+}
+
+absl::StatusOr<MeshPin> Ingest::PublishMesh(Source& source) {
+  if (source.staged == nullptr) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const std::unique_ptr<MeshWriter> writer,
+        meshes_.StartWrite(static_cast<int64_t>(source.bytes.size())));
+    ARGMESH_RETURN_IF_ERROR(writer->Append(source.bytes));
+    ARGMESH_ASSIGN_OR_RETURN(source.staged, writer->Seal());
+  }
+  return source.staged->Publish();
+}
+
+absl::StatusOr<AddedShape> Ingest::Commit(const ShapePut& put,
+                                          MatchableGraph graph) {
+  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten written, catalog_.PutShape(put));
+  GalleryEntryPtr entry;
+  if (written.written) {
+    entry = std::make_shared<const GalleryEntry>(
+        GalleryEntry{written.record, std::move(graph)});
+  }
+  gallery_.Follow(put.record.collection, written.collection_uid,
+                  written.record.generation, std::move(entry));
+  RemoveMeshes(written.unreferenced);
+  return AddedShape{std::move(written.record), !written.written};
+}
+
+absl::StatusOr<AddedShape> Ingest::Store(Source& source, const ShapePut& put,
+                                         MatchableGraph graph) {
+  if (!put.record.mesh_stored) return Commit(put, std::move(graph));
+  absl::StatusOr<AddedShape> added;
+  {
+    ARGMESH_ASSIGN_OR_RETURN(const MeshPin pin, PublishMesh(source));
+    added = Commit(put, std::move(graph));
+  }
+  if (!added.ok() || added->already_stored) {
+    RemoveMeshes({source.sha256});  // unless another shape has it
+  }
+  return added;
+}
+
+absl::StatusOr<AddedShape> Ingest::Analyze(const NewShape& shape,
+                                           const CollectionRecord& collection,
+                                           Source& source, RequestStamp request,
+                                           const StopToken& stop) {
+  if (source.staged != nullptr) {
+    ARGMESH_ASSIGN_OR_RETURN(source.bytes, source.staged->ReadAll());
+  }
+  ARGMESH_ASSIGN_OR_RETURN(const AnalyzedMesh analyzed,
+                           AnalyzeMesh(source.bytes, shape.format,
+                                       collection.settings, options_, stop));
+  ShapePut put;
+  put.record = RecordOf(shape, analyzed);
+  put.record.sha256 = source.sha256;
+  put.record.size_bytes = static_cast<int64_t>(source.bytes.size());
+  put.record.mesh_stored = collection.settings.store_meshes;
+  put.collection_uid = collection.uid;
+  put.graph_version = kShapeGraphVersion;
+  put.graph = SerializeShapeGraph(analyzed.computed.graph);
+  put.labels = SerializeFaceLabels(analyzed.computed.labels);
+  put.if_exists = shape.if_exists;
+  put.etag = shape.etag;
+  put.request = std::move(request);
+  MatchableGraph graph(analyzed.computed.graph);
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  return Store(source, put, std::move(graph));
+}
+
+absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
+                                            MeshSource mesh,
+                                            const StopToken& stop) {
+  ARGMESH_RETURN_IF_ERROR(CheckNewShape(shape));
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
+                           catalog_.GetCollection(shape.collection));
+  ARGMESH_ASSIGN_OR_RETURN(Source source, Open(shape, std::move(mesh)));
+  ARGMESH_ASSIGN_OR_RETURN(RequestStamp request,
+                           StampRequest(shape.request, "AddShape",
+                                        RequestFields(shape, source.sha256),
+                                        absl::Now() + options_.request_memory));
+  ARGMESH_ASSIGN_OR_RETURN(std::optional<AddedShape> stored,
+                           FindStored(shape, source.sha256, request));
+  if (stored) return *std::move(stored);
+  if (collection.graph_version != kShapeGraphVersion) {
+    return MakeError(
+        ErrorReason::kGraphVersionMismatch,
+        absl::StrFormat("the collection's graphs have version %d, "
+                        "this server computes %d",
+                        collection.graph_version, kShapeGraphVersion));
+  }
+  return Analyze(shape, collection, source, std::move(request), stop);
+}
+
+}  // namespace argmesh

@@ -1,0 +1,65 @@
+// Adding a shape: check, analyse, publish the mesh, commit, index.
+//
+// The order makes a shape durable and searchable when AddShape returns, and
+// leaves neither row nor mesh behind when it fails.
+#ifndef ARGMESH_SERVER_ENGINE_INGEST_H_
+#define ARGMESH_SERVER_ENGINE_INGEST_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
+#include "core/matching/match.h"
+#include "server/engine/catalog.h"
+#include "server/engine/engine_options.h"
+#include "server/engine/gallery.h"
+#include "server/engine/mesh_analysis.h"
+#include "server/engine/mesh_store.h"
+#include "server/engine/mesh_upload.h"
+#include "server/engine/shape_requests.h"
+
+namespace argmesh {
+
+class Ingest {
+ public:
+  // All must outlive it.
+  Ingest(const EngineOptions& options, Catalog& catalog, MeshStore& meshes,
+         Gallery& gallery);
+
+  absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
+                                      const StopToken& stop);
+
+  // Removes meshes that rows no longer name. What cannot be removed now is
+  // left to the sweep of the next start.
+  void RemoveMeshes(const std::vector<Sha256Digest>& unreferenced);
+
+  MeshStore::IsReferenced is_referenced() const;
+
+ private:
+  struct Source;  // bytes and what is known of them
+
+  absl::StatusOr<Source> Open(const NewShape& shape, MeshSource mesh) const;
+  absl::StatusOr<std::optional<AddedShape>> FindStored(
+      const NewShape& shape, const Sha256Digest& sha256,
+      const RequestStamp& request) const;
+  absl::StatusOr<MeshPin> PublishMesh(Source& source);
+  absl::StatusOr<AddedShape> Analyze(const NewShape& shape,
+                                     const CollectionRecord& collection,
+                                     Source& source, RequestStamp request,
+                                     const StopToken& stop);
+  absl::StatusOr<AddedShape> Store(Source& source, const ShapePut& put,
+                                   MatchableGraph graph);
+  absl::StatusOr<AddedShape> Commit(const ShapePut& put, MatchableGraph graph);
+
+  const EngineOptions& options_;
+  Catalog& catalog_;
+  MeshStore& meshes_;
+  Gallery& gallery_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_INGEST_H_

@@ -1,0 +1,41 @@
+// From the bytes of a mesh to its graph, with errors a client can act on.
+#ifndef ARGMESH_SERVER_ENGINE_MESH_ANALYSIS_H_
+#define ARGMESH_SERVER_ENGINE_MESH_ANALYSIS_H_
+
+#include <cstdint>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
+#include "core/graph/compute_graph.h"
+#include "core/mesh/mesh_format.h"
+#include "server/engine/collection_record.h"
+#include "server/engine/engine_options.h"
+#include "server/engine/shape_record.h"
+
+namespace argmesh {
+
+struct AnalyzedMesh {
+  ComputedGraph computed;
+  MeshFormat format = MeshFormat::kUnknown;
+};
+
+// Fails    MESH_MALFORMED (metadata `line` or `offset` where known),
+//          MESH_FORMAT_UNKNOWN, MESH_EMPTY, MESH_DEGENERATE,
+//          MESH_TOO_LARGE (over a limit, or over options.max_compute_time),
+//          kCancelled, kDeadlineExceeded of `stop`
+absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
+                                         MeshFormat format,
+                                         const CollectionSettings& settings,
+                                         const EngineOptions& options,
+                                         const StopToken& stop);
+
+// MESH_TOO_LARGE from the size alone.
+absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits);
+
+GraphSummary SummarizeGraph(const ShapeGraph& graph);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_MESH_ANALYSIS_H_
