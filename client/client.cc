@@ -1,0 +1,148 @@
+#include "client/client.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "client/client_parts.h"
+#include "core/base/status_macros.h"
+
+namespace argmesh {
+namespace {
+
+// A page of a list, the server's largest.
+constexpr int kPageSize = 1000;
+
+}  // namespace
+
+void SetDeadline(absl::Time deadline, grpc::ClientContext& context) {
+  context.set_deadline(absl::ToChronoTime(deadline));
+}
+
+absl::Status Client::Parts::Explain(const grpc::Status& status) const {
+  const absl::Status plain = ToStatus(status);
+  if (!IsUnreachable(plain)) return plain;
+  return absl::UnavailableError(
+      absl::StrFormat("no argmesh server answers at %s (%s)", target,
+                      std::string(plain.message())));
+}
+
+absl::StatusOr<std::unique_ptr<Client>> Client::Connect(
+    std::string_view target, const ClientOptions& options) {
+  if (target.find(':') == std::string_view::npos) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "server address \"%s\" is not HOST:PORT", std::string(target)));
+  }
+  if (options.call_timeout <= absl::ZeroDuration() ||
+      options.retry.max_attempts < 1) {
+    return absl::InvalidArgumentError(
+        "call_timeout must be above 0 and max_attempts at least 1");
+  }
+  grpc::ChannelArguments arguments;
+  arguments.SetUserAgentPrefix(options.user_agent);
+  // Attempts are made and spaced here; gRPC's own second of waiting between
+  // two connections would make them all fail alike.
+  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
+  auto parts = std::make_unique<Parts>();
+  parts->target = std::string(target);
+  parts->options = options;
+  parts->channel = grpc::CreateCustomChannel(
+      parts->target, grpc::InsecureChannelCredentials(), arguments);
+  parts->collections = v1::CollectionService::NewStub(parts->channel);
+  parts->shapes = v1::ShapeService::NewStub(parts->channel);
+  parts->ingest = v1::IngestService::NewStub(parts->channel);
+  parts->search = v1::SearchService::NewStub(parts->channel);
+  parts->admin = v1::AdminService::NewStub(parts->channel);
+  parts->next_seed = static_cast<uint64_t>(absl::GetCurrentTimeNanos());
+  return std::unique_ptr<Client>(new Client(std::move(parts)));
+}
+
+Client::Client(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Client::~Client() = default;
+
+const std::string& Client::target() const { return parts_->target; }
+const ClientOptions& Client::options() const { return parts_->options; }
+
+absl::StatusOr<v1::Collection> Client::CreateCollection(
+    const v1::CreateCollectionRequest& request) {
+  return parts_->Call<v1::Collection>(
+      Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->collections->CreateCollection(context, request,
+                                                     response);
+      });
+}
+
+absl::StatusOr<v1::Collection> Client::GetCollection(std::string_view name) {
+  v1::GetCollectionRequest request;
+  request.set_name(std::string(name));
+  return parts_->Call<v1::Collection>(
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->collections->GetCollection(context, request, response);
+      });
+}
+
+absl::StatusOr<v1::ListCollectionsResponse> Client::ListCollections(
+    const v1::ListCollectionsRequest& request) {
+  return parts_->Call<v1::ListCollectionsResponse>(
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->collections->ListCollections(context, request, response);
+      });
+}
+
+absl::Status Client::ForEachCollection(
+    const std::function<bool(const v1::Collection&)>& visit) {
+  v1::ListCollectionsRequest request;
+  request.set_page_size(kPageSize);
+  do {
+    ARGMESH_ASSIGN_OR_RETURN(const v1::ListCollectionsResponse page,
+                             ListCollections(request));
+    for (const v1::Collection& collection : page.collections()) {
+      if (!visit(collection)) return absl::OkStatus();
+    }
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return absl::OkStatus();
+}
+
+absl::Status Client::DeleteCollection(
+    const v1::DeleteCollectionRequest& request) {
+  return parts_
+      ->Call<v1::DeleteCollectionResponse>(
+          Repeat::kNever,
+          [&](grpc::ClientContext* context, auto* response) {
+            return parts_->collections->DeleteCollection(context, request,
+                                                         response);
+          })
+      .status();
+}
+
+absl::StatusOr<v1::SearchShapesResponse> Client::SearchShapes(
+    const v1::SearchShapesRequest& request) {
+  return parts_->Call<v1::SearchShapesResponse>(
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->search->SearchShapes(context, request, response);
+      });
+}
+
+absl::StatusOr<v1::CompareShapesResponse> Client::CompareShapes(
+    const v1::CompareShapesRequest& request) {
+  return parts_->Call<v1::CompareShapesResponse>(
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->search->CompareShapes(context, request, response);
+      });
+}
+
+absl::StatusOr<v1::GetServerInfoResponse> Client::GetServerInfo() {
+  const v1::GetServerInfoRequest request;
+  return parts_->Call<v1::GetServerInfoResponse>(
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->admin->GetServerInfo(context, request, response);
+      });
+}
+
+}  // namespace argmesh
