@@ -2,9 +2,10 @@
 //
 // OFF (also OFF with counts on its first line, COFF, NOFF, comments), OBJ
 // (v, v/vt, v//vn, negative indices, polygons; `mtllib` is never opened), PLY
-// (ascii, little and big endian), STL (ascii and binary, told apart by size).
-// Polygons are triangulated. Every count is checked against the bytes left
-// before anything is allocated.
+// (ascii, little and big endian, triangle strips), STL (ascii and binary, told
+// apart by size). Polygons are triangulated (fan or ear clipping); the vertices
+// of an STL file are its distinct positions in the order of their first use.
+// Every count is checked against the bytes left before anything is allocated.
 //
 // Fails    kInvalidArgument     malformed; the message names line or byte
 //          kResourceExhausted   over a limit; names value and limit
@@ -44,6 +45,15 @@ struct ParsedMesh {
   std::vector<int32_t> file_face;
   int32_t num_file_faces = 0;
   MeshFormat format = MeshFormat::kUnknown;
+
+  // Faces of fewer than 3 vertices; they have no triangle.
+  int64_t skipped_file_faces = 0;
+  // Polygons that cross themselves or have no area; triangulated all the same.
+  int64_t irregular_file_faces = 0;
+  // What is no surface or not understood: OBJ lines, points, curves and
+  // unknown statements; PLY elements beside vertices, faces and strips, lines
+  // of more values than the PLY header declares.
+  int64_t ignored_statements = 0;
 };
 
 // `format` kUnknown: told from the bytes.

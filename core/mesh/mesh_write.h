@@ -18,12 +18,14 @@ namespace argmesh {
 
 using RgbColor = std::array<uint8_t, 3>;
 
-// kInvalidArgument for MeshFormat::kUnknown. OFF and OBJ as text, PLY and STL
-// binary little-endian.
+// OFF and OBJ as text, PLY and STL binary little-endian. kInvalidArgument for
+// MeshFormat::kUnknown and for what ParseMesh would refuse: a face's vertex
+// that is none, a coordinate beyond the range of float.
 absl::StatusOr<std::string> SerializeMesh(const TriangleMesh& mesh,
                                           MeshFormat format);
 
-// Binary PLY with one colour per face; `face_colors` has one per face.
+// Binary PLY with one colour per face; `face_colors` has one per face and the
+// mesh passes CheckMesh.
 std::string SerializeColoredPly(const TriangleMesh& mesh,
                                 std::span<const RgbColor> face_colors);
 
