@@ -10,6 +10,7 @@
 #include <new>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_format.h"
@@ -26,17 +27,20 @@ constexpr double kMinAreaShare = 1e-8;
 constexpr double kShift = -0.05;
 constexpr double kTolerance = 1e-6;
 constexpr int kMaxRestarts = 200;
+// Basis vectors beyond the wanted pairs.
+constexpr int kSpareVectors = 40;
 // Up to this size all pairs cost less than setting up the iteration.
 constexpr int kSmallSize = 100;
+constexpr int kMaxPasses = 64;
 constexpr uint64_t kStartSeed = 0x5eed;
 
-// (S - shift)^-1 as Spectra wants it.
+// (S - shift)^-1 on the complement of `locked`, as Spectra wants it.
 class ShiftInverse {
  public:
   using Scalar = double;
 
-  explicit ShiftInverse(const SparseMatrix& symmetric)
-      : symmetric_(symmetric) {}
+  ShiftInverse(const SparseMatrix& symmetric, const Eigen::MatrixXd& locked)
+      : symmetric_(symmetric), locked_(locked) {}
 
   Eigen::Index rows() const { return symmetric_.rows(); }
   Eigen::Index cols() const { return symmetric_.cols(); }
@@ -52,12 +56,14 @@ class ShiftInverse {
     Eigen::Map<const Eigen::VectorXd> x(in, rows());
     Eigen::Map<Eigen::VectorXd> y(out, rows());
     y = factors_.solve(x);
+    if (locked_.cols() > 0) y -= locked_ * (locked_.transpose() * y).eval();
   }
 
   bool factorized() const { return factors_.info() == Eigen::Success; }
 
  private:
   const SparseMatrix& symmetric_;
+  const Eigen::MatrixXd& locked_;
   Eigen::SimplicialLDLT<SparseMatrix> factors_;
 };
 
@@ -69,36 +75,83 @@ Spectrum SolveDense(const SparseMatrix& symmetric, int count) {
           solver.eigenvectors().leftCols(count)};
 }
 
-Spectrum SortAscending(const Eigen::VectorXd& values,
-                       const Eigen::MatrixXd& vectors) {
+// The `count` smallest of the pairs of `a` and `b`, ascending.
+Spectrum Merge(const Spectrum& a, const Spectrum& b, Eigen::Index count) {
+  Eigen::VectorXd values(a.values.size() + b.values.size());
+  values << a.values, b.values;
   std::vector<Eigen::Index> order(static_cast<size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
       order.begin(), order.end(),
-      [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
-  Spectrum sorted{Eigen::VectorXd(values.size()),
-                  Eigen::MatrixXd(vectors.rows(), vectors.cols())};
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    sorted.values[k] = values[order[static_cast<size_t>(k)]];
-    sorted.vectors.col(k) = vectors.col(order[static_cast<size_t>(k)]);
+      [&](Eigen::Index i, Eigen::Index j) { return values[i] < values[j]; });
+  count = std::min(count, values.size());
+  Spectrum merged{Eigen::VectorXd(count),
+                  Eigen::MatrixXd(b.vectors.rows(), count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index from = order[static_cast<size_t>(k)];
+    merged.values[k] = values[from];
+    if (from < a.values.size()) {
+      merged.vectors.col(k) = a.vectors.col(from);
+    } else {
+      merged.vectors.col(k) = b.vectors.col(from - a.values.size());
+    }
   }
-  return sorted;
+  return merged;
 }
 
-std::optional<Spectrum> SolveLanczos(const SparseMatrix& symmetric, int count,
-                                     int basis_size, double shift) {
+// The `count` smallest pairs orthogonal to `locked`.
+std::optional<Spectrum> SolveLanczos(const SparseMatrix& symmetric,
+                                     const Eigen::MatrixXd& locked, int count,
+                                     double shift) {
   const Eigen::Index n = symmetric.rows();
-  ShiftInverse op(symmetric);
-  Spectra::SymEigsShiftSolver<ShiftInverse> solver(op, count, basis_size,
-                                                   shift);
-  if (!op.factorized()) return std::nullopt;
   Random random(kStartSeed);
   Eigen::VectorXd start(n);
   for (Eigen::Index i = 0; i < n; ++i) start[i] = random.Uniform(-1, 1);
-  solver.init(start.data());
-  solver.compute(Spectra::SortRule::LargestMagn, kMaxRestarts, kTolerance);
-  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  return SortAscending(solver.eigenvalues(), solver.eigenvectors());
+  if (locked.cols() > 0) start -= locked * (locked.transpose() * start).eval();
+  ShiftInverse op(symmetric, locked);
+  for (const int spare : {kSpareVectors, kSpareVectors + 3 * count}) {
+    const auto basis_size = std::min<Eigen::Index>(n, count + spare);
+    Spectra::SymEigsShiftSolver<ShiftInverse> solver(op, count, basis_size,
+                                                     shift);
+    if (!op.factorized()) return std::nullopt;
+    solver.init(start.data());
+    solver.compute(Spectra::SortRule::LargestMagn, kMaxRestarts, kTolerance);
+    if (solver.info() != Spectra::CompInfo::Successful) continue;
+    return Merge({}, {solver.eigenvalues(), solver.eigenvectors()}, count);
+  }
+  return std::nullopt;
+}
+
+// How many eigenvalues are below `limit`, by Sylvester's law of inertia.
+std::optional<int> CountBelow(const SparseMatrix& symmetric, double limit) {
+  Eigen::SimplicialLDLT<SparseMatrix> factors;
+  factors.setShift(-limit);
+  factors.compute(symmetric);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  return static_cast<int>((factors.vectorD().array() < 0).count());
+}
+
+// One Lanczos run sees one vector of each eigenspace, and the other vectors of
+// a multiple eigenvalue (any symmetric shape has some) only by rounding. So
+// the pairs are counted, and missing ones are looked for in the complement.
+std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
+                                      double shift) {
+  auto found = SolveLanczos(symmetric, Eigen::MatrixXd(), count, shift);
+  for (int pass = 0; found && pass < kMaxPasses; ++pass) {
+    // Below a cluster at the end of the list, of which some are not wanted.
+    const double last = found->values[count - 1];
+    const double limit = last - 1e-5 * (std::abs(last) - shift);
+    const auto known =
+        static_cast<int>((found->values.array() < limit).count());
+    const std::optional<int> expected = CountBelow(symmetric, limit);
+    if (!expected) return std::nullopt;
+    if (*expected <= known) return found;
+    const auto missing = SolveLanczos(
+        symmetric, found->vectors, std::min(*expected - known, count), shift);
+    if (!missing) return std::nullopt;
+    found = Merge(*found, *missing, count);
+  }
+  return std::nullopt;
 }
 
 absl::StatusOr<Spectrum> SolveSymmetric(const SparseMatrix& symmetric,
@@ -106,11 +159,8 @@ absl::StatusOr<Spectrum> SolveSymmetric(const SparseMatrix& symmetric,
   const auto n = static_cast<int>(symmetric.rows());
   if (n <= kSmallSize || n < 3 * count) return SolveDense(symmetric, count);
   try {
-    for (const int basis_size : {2 * count + 10, 4 * count + 20}) {
-      auto pairs =
-          SolveLanczos(symmetric, count, std::min(n, basis_size), shift);
-      if (pairs) return *std::move(pairs);
-    }
+    auto pairs = SolveComplete(symmetric, count, shift);
+    if (pairs) return *std::move(pairs);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -121,81 +171,7 @@ absl::StatusOr<Spectrum> SolveSymmetric(const SparseMatrix& symmetric,
       "spectrum: %d eigenpairs of %d vertices did not converge", count, n));
 }
 
-// row[target]: index of the link v -> target, an edge of the mesh.
-int32_t FindLink(const SurfaceGraph& graph, int32_t v, int32_t target) {
-  const auto first = graph.targets.begin() + graph.offsets.data()[v];
-  const auto last = graph.targets.begin() + graph.offsets.data()[v + 1];
-  return static_cast<int32_t>(std::lower_bound(first, last, target) -
-                              graph.targets.begin());
-}
-
 }  // namespace
-
-std::vector<double> ComputeCotangentWeights(const TriangleMesh& mesh,
-                                            const SurfaceGraph& graph,
-                                            const CotangentOptions& options) {
-  std::vector<double> weights(graph.targets.size(), 0);
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int32_t a = mesh.F(f, (k + 1) % 3);
-      const int32_t b = mesh.F(f, (k + 2) % 3);
-      if (a == b) continue;
-      const Eigen::Vector3d u = mesh.vertex(a) - mesh.vertex(mesh.F(f, k));
-      const Eigen::Vector3d w = mesh.vertex(b) - mesh.vertex(mesh.F(f, k));
-      const double twice_area = u.cross(w).norm();
-      if (!(twice_area > 0)) continue;
-      const double half =
-          std::clamp(u.dot(w) / twice_area, -options.max_cotangent,
-                     options.max_cotangent) /
-          2;
-      weights.data()[FindLink(graph, a, b)] += half;
-      weights.data()[FindLink(graph, b, a)] += half;
-    }
-  }
-  for (size_t e = 0; e < weights.size(); ++e) {
-    switch (graph.kinds[e]) {
-      case LinkKind::kEdge:
-        weights[e] =
-            std::clamp(weights[e], options.min_weight, options.max_weight);
-        break;
-      case LinkKind::kDiagonal:
-        weights[e] = 0;
-        break;
-      case LinkKind::kBridge:
-        weights[e] = options.bridge_weight;
-        break;
-    }
-  }
-  return weights;
-}
-
-Eigen::SparseMatrix<double> BuildLaplacian(const SurfaceGraph& graph,
-                                           const std::vector<double>& weights) {
-  const int n = graph.num_vertices();
-  SparseMatrix laplacian(n, n);
-  laplacian.reserve(static_cast<Eigen::Index>(weights.size()) + n);
-  for (int32_t v = 0; v < n; ++v) {
-    const int32_t begin = graph.offsets.data()[v];
-    const int32_t end = graph.offsets.data()[v + 1];
-    const double degree =
-        std::accumulate(weights.begin() + begin, weights.begin() + end, 0.0);
-    laplacian.startVec(v);
-    int32_t e = begin;
-    const auto insert_until = [&](int32_t limit) {
-      for (; e < end && graph.targets.data()[e] < limit; ++e) {
-        const double weight = weights.data()[e];
-        if (weight != 0) {
-          laplacian.insertBack(graph.targets.data()[e], v) = -weight;
-        }
-      }
-    };
-    insert_until(v);
-    laplacian.insertBack(v, v) = degree;
-    insert_until(n);
-  }
-  laplacian.finalize();
-  return laplacian;
-}
 
 absl::StatusOr<Spectrum> ComputeSpectrum(const SparseMatrix& laplacian,
                                          const Eigen::VectorXd& areas,
