@@ -27,8 +27,8 @@
 namespace argmesh {
 
 struct ResampleOptions {
-  int vertex_budget = 3000;       // 100 .. 100,000
-  double quadric_weight = 20;     // >= 0; larger keeps sharp features better
+  int vertex_budget = 3000;    // 100 .. 100,000
+  double quadric_weight = 20;  // >= 0; larger keeps sharp features better
 };
 
 struct ResampledMesh {

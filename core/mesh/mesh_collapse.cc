@@ -1,0 +1,179 @@
+#include "core/mesh/mesh_collapse.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/base/status_macros.h"
+#include "core/mesh/halfedge_mesh.h"
+#include "core/mesh/mesh_edges.h"
+#include "core/mesh/plane_quadric.h"
+
+namespace argmesh {
+namespace {
+
+constexpr double kPull = 0.05;           // towards the middle, of the weight
+constexpr double kSmallestCosine = 0.1;  // between a face's old and new normal
+constexpr int kStepsPerCheck = 4096;
+// An edge that was refused can become possible when its neighbourhood has
+// changed; looking again more often brings next to nothing.
+constexpr int kMaxRounds = 4;
+
+struct Candidate {
+  double cost;
+  int32_t a;  // a < b
+  int32_t b;
+  int32_t stamp;  // both ends unchanged since
+};
+
+// Heap order: the cheapest on top.
+bool IsWorse(const Candidate& x, const Candidate& y) {
+  if (x.cost != y.cost) return x.cost > y.cost;
+  return x.a != y.a ? x.a > y.a : x.b > y.b;
+}
+
+struct Placement {
+  Eigen::Vector3d position;
+  double cost;
+};
+
+class EdgeCollapser {
+ public:
+  EdgeCollapser(const TriangleMesh& mesh, const CollapseOptions& options,
+                HalfedgeMesh halfedges)
+      : options_(options),
+        V_(mesh.V),
+        halfedges_(std::move(halfedges)),
+        stamps_(Slot(mesh.num_vertices()), 0),
+        alive_(mesh.num_vertices()) {
+    const MeshEdges edges = ComputeMeshEdges(mesh.F, mesh.num_vertices());
+    quadrics_ = ComputeVertexQuadrics(mesh, edges);
+    FillHeap(edges);
+  }
+
+  absl::Status Run(const StopToken& stop) {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      const int before = alive_;
+      ARGMESH_RETURN_IF_ERROR(EmptyHeap(stop));
+      if (alive_ <= options_.target_vertices || alive_ == before) break;
+      FillHeap(ComputeMeshEdges(halfedges_.CopyFaces(),
+                                static_cast<int>(V_.rows())));
+    }
+    return absl::OkStatus();
+  }
+
+  TriangleMesh TakeMesh() {
+    TriangleMesh mesh{std::move(V_), halfedges_.CopyFaces()};
+    RemoveUnusedVertices(mesh);
+    return mesh;
+  }
+
+ private:
+  void FillHeap(const MeshEdges& edges) {
+    heap_.clear();
+    heap_.reserve(edges.size());
+    for (const auto& [a, b] : edges.ends) heap_.push_back(MakeCandidate(a, b));
+    std::make_heap(heap_.begin(), heap_.end(), IsWorse);
+  }
+
+  absl::Status EmptyHeap(const StopToken& stop) {
+    for (int step = 0; alive_ > options_.target_vertices && !heap_.empty();
+         ++step) {
+      if (step % kStepsPerCheck == 0) ARGMESH_RETURN_IF_ERROR(stop.Check());
+      const Candidate top = heap_.front();
+      std::pop_heap(heap_.begin(), heap_.end(), IsWorse);
+      heap_.pop_back();
+      if (IsCurrent(top)) TryCollapse(top);
+    }
+    return absl::OkStatus();
+  }
+
+  bool IsCurrent(const Candidate& edge) const {
+    return stamps_[Slot(edge.a)] + stamps_[Slot(edge.b)] == edge.stamp &&
+           halfedges_.IsAlive(edge.a) && halfedges_.IsAlive(edge.b);
+  }
+
+  Candidate MakeCandidate(int32_t a, int32_t b) const {
+    return {Place(a, b).cost, a, b, stamps_[Slot(a)] + stamps_[Slot(b)]};
+  }
+
+  Placement Place(int32_t a, int32_t b) const {
+    PlaneQuadric quadric = quadrics_[Slot(a)];
+    quadric += quadrics_[Slot(b)];
+    const Eigen::Vector3d xa = V_.row(a).transpose();
+    const Eigen::Vector3d xb = V_.row(b).transpose();
+    Eigen::Vector3d middle = (xa + xb) / 2;
+    const bool a_on_boundary = halfedges_.IsBoundary(a);
+    if (a_on_boundary != halfedges_.IsBoundary(b)) {
+      middle = a_on_boundary ? xa : xb;
+    }
+    const double squared_length = (xa - xb).squaredNorm();
+    if (!(quadric.weight() > 0)) return {middle, squared_length};
+    Eigen::Vector3d x = quadric.Lowest(middle, kPull);
+    if (!((x - middle).squaredNorm() < squared_length)) x = middle;
+    const double error = std::max(0.0, quadric.SumAt(x)) / quadric.weight();
+    return {x, squared_length + options_.quadric_weight * error};
+  }
+
+  void TryCollapse(const Candidate& edge) {
+    if (!halfedges_.CanCollapse(edge.b, edge.a)) return;
+    const Eigen::Vector3d x = Place(edge.a, edge.b).position;
+    if (FlipsAFace(edge.a, edge.b, x) || FlipsAFace(edge.b, edge.a, x)) return;
+    halfedges_.Collapse(edge.b, edge.a);
+    V_.row(edge.a) = x.transpose();
+    quadrics_[Slot(edge.a)] += quadrics_[Slot(edge.b)];
+    ++stamps_[Slot(edge.a)];
+    --alive_;
+    halfedges_.GetRing(edge.a, ring_);
+    for (const int32_t v : ring_) {
+      heap_.push_back(MakeCandidate(std::min(v, edge.a), std::max(v, edge.a)));
+      std::push_heap(heap_.begin(), heap_.end(), IsWorse);
+    }
+  }
+
+  // Whether moving v to x turns a face around v, but for those that have
+  // `gone` as a vertex, or leaves it without area.
+  bool FlipsAFace(int32_t v, int32_t gone, const Eigen::Vector3d& x) {
+    halfedges_.GetRing(v, ring_);
+    const size_t faces = ring_.size() - (halfedges_.IsBoundary(v) ? 1 : 0);
+    const Eigen::Vector3d old_x = V_.row(v).transpose();
+    for (size_t i = 0; i < faces; ++i) {
+      const int32_t p = ring_[i];
+      const int32_t q = ring_[i + 1 < ring_.size() ? i + 1 : 0];
+      if (p == gone || q == gone) continue;
+      const Eigen::Vector3d xp = V_.row(p).transpose();
+      const Eigen::Vector3d xq = V_.row(q).transpose();
+      const Eigen::Vector3d before = (xp - old_x).cross(xq - old_x);
+      const Eigen::Vector3d after = (xp - x).cross(xq - x);
+      const double lengths = before.norm() * after.norm();
+      if (before.dot(after) < kSmallestCosine * lengths) return true;
+      if (lengths == 0 && before.squaredNorm() > 0) return true;
+    }
+    return false;
+  }
+
+  CollapseOptions options_;
+  VertexMatrix V_;
+  HalfedgeMesh halfedges_;
+  std::vector<PlaneQuadric> quadrics_;
+  std::vector<int32_t> stamps_;
+  int alive_;
+  std::vector<Candidate> heap_;
+  std::vector<int32_t> ring_;
+};
+
+}  // namespace
+
+absl::StatusOr<TriangleMesh> CollapseEdges(const TriangleMesh& mesh,
+                                           const CollapseOptions& options,
+                                           const StopToken& stop) {
+  ARGMESH_ASSIGN_OR_RETURN(HalfedgeMesh halfedges,
+                           HalfedgeMesh::Create(mesh.F, mesh.num_vertices()));
+  EdgeCollapser collapser(mesh, options, std::move(halfedges));
+  ARGMESH_RETURN_IF_ERROR(collapser.Run(stop));
+  return collapser.TakeMesh();
+}
+
+}  // namespace argmesh
