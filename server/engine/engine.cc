@@ -53,10 +53,14 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
   auto parts =
       std::make_unique<Parts>(options, std::move(catalog), std::move(meshes));
   parts->startup = std::jthread([&p = *parts](std::stop_token stop) {
-    p.gallery.Load(StopToken(std::move(stop), absl::InfiniteFuture()));
+    p.gallery.Load(StopToken(stop, absl::InfiniteFuture()));
     // Nothing waits for the sweep; what it leaves goes at the next start.
-    (void)p.meshes->Sweep(absl::Now() - p.options.sweep_age,
-                          p.ingest.is_referenced());
+    (void)p.meshes->Sweep(
+        absl::Now() - p.options.sweep_age,
+        [&](const Sha256Digest& sha256) -> absl::StatusOr<bool> {
+          if (stop.stop_requested()) return absl::CancelledError("closing");
+          return p.catalog->IsMeshReferenced(sha256);
+        });
   });
   return std::unique_ptr<Engine>(new Engine(std::move(parts)));
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/status_macros.h"
 #include "core/graph/graph_codec.h"
+#include "server/engine/catalog_errors.h"
 #include "server/engine/collection_index.h"
 #include "server/engine/error_reason.h"
 
@@ -238,9 +239,7 @@ absl::StatusOr<GallerySnapshotPtr> Gallery::Snapshot(
     std::string_view collection, int64_t min_generation) const {
   const SlotPtr slot = FindSlot(collection);
   if (slot == nullptr && state() == IndexState::kServing) {
-    return MakeError(ErrorReason::kCollectionNotFound,
-                     "no collection " + std::string(collection),
-                     {{"collection", std::string(collection)}});
+    return CollectionNotFoundError(collection);
   }
   bool behind = false;
   absl::Status error;

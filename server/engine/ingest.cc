@@ -7,6 +7,7 @@
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
 #include "core/graph/graph_codec.h"
+#include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/mesh_upload.h"
 #include "server/engine/request_rules.h"
@@ -118,10 +119,7 @@ absl::StatusOr<std::optional<AddedShape>> Ingest::FindStored(
   if (shape.if_exists == IfExists::kReturnSame && stored->sha256 == sha256) {
     return AddedShape{*std::move(stored), true};
   }
-  return MakeError(ErrorReason::kShapeExists,
-                   absl::StrFormat("collection %s has a shape %s already",
-                                   shape.collection, shape.id),
-                   {{"collection", shape.collection}, {"shape", shape.id}});
+  return ShapeExistsError(shape.collection, shape.id);
 }
 
 absl::StatusOr<MeshPin> Ingest::PublishMesh(Source& source) {

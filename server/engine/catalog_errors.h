@@ -1,0 +1,24 @@
+// The errors every implementation of Catalog answers with.
+#ifndef ARGMESH_SERVER_ENGINE_CATALOG_ERRORS_H_
+#define ARGMESH_SERVER_ENGINE_CATALOG_ERRORS_H_
+
+#include <string_view>
+
+#include "absl/status/status.h"
+
+namespace argmesh {
+
+absl::Status CollectionNotFoundError(std::string_view id);
+absl::Status CollectionExistsError(std::string_view id);
+absl::Status CollectionNotEmptyError(std::string_view id);
+absl::Status ShapeNotFoundError(std::string_view collection,
+                                std::string_view id);
+absl::Status ShapeExistsError(std::string_view collection, std::string_view id);
+absl::Status RequestIdReusedError(std::string_view request_id);
+absl::Status CatalogClosedError();
+// OK when `asked` is empty or the stored one.
+absl::Status CheckEtag(std::string_view asked, std::string_view stored);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_CATALOG_ERRORS_H_

@@ -1,0 +1,64 @@
+// The folder that holds everything a server stores. One process at a time.
+//
+//   lock        held by flock(2); contains the process id
+//   clean       there while the last stop was a clean one
+//   catalog.db  SQLite (docs/formats.md), with -wal and -shm beside it
+//   blobs/      meshes: ab/<sha256>
+//   incoming/   meshes that are being written; emptied at every start
+#ifndef ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_
+#define ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/storage/posix_file.h"
+
+namespace argmesh {
+
+struct DataDirectoryOptions {
+  // Writes that add are refused below so much free space; >= 0.
+  int64_t min_free_bytes = 128LL << 20;
+  // SQLite's write-ahead log does not work on network file systems.
+  bool allow_network_file_system = false;
+};
+
+class DataDirectory {
+ public:
+  // Creates it when missing, with its parents.
+  //
+  // Fails    kFailedPrecondition  in use by another process (named), or on a
+  //                               network file system
+  //          as posix_file.h
+  static absl::StatusOr<std::shared_ptr<DataDirectory>> Open(
+      const std::filesystem::path& path,
+      const DataDirectoryOptions& options = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path database_path() const { return path_ / "catalog.db"; }
+  std::filesystem::path blobs_path() const { return path_ / "blobs"; }
+  std::filesystem::path incoming_path() const { return path_ / "incoming"; }
+
+  // kResourceExhausted STORE_FULL when `extra_bytes` more would eat into the
+  // space kept free.
+  absl::Status CheckFreeSpace(int64_t extra_bytes) const;
+
+  // Whether the last stop was clean.
+  bool IsMarkedClean() const;
+  absl::Status MarkClean() const;
+  absl::Status ClearCleanMark() const;
+
+ private:
+  DataDirectory(std::filesystem::path path, const DataDirectoryOptions& options,
+                PosixFile lock);
+
+  std::filesystem::path path_;
+  DataDirectoryOptions options_;
+  PosixFile lock_;  // the lock goes with it
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_

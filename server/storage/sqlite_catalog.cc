@@ -1,0 +1,49 @@
+#include "server/storage/sqlite_catalog.h"
+
+#include <system_error>
+#include <utility>
+
+#include "core/base/status_macros.h"
+#include "server/storage/schema.h"
+
+namespace argmesh {
+
+absl::StatusOr<std::unique_ptr<SqliteCatalog>> SqliteCatalog::Open(
+    std::shared_ptr<DataDirectory> directory,
+    const SqliteCatalogOptions& options) {
+  const std::filesystem::path path = directory->database_path();
+  std::error_code error;
+  const bool existed = std::filesystem::exists(path, error);
+  const bool clean = directory->IsMarkedClean();
+  ARGMESH_RETURN_IF_ERROR(directory->ClearCleanMark());
+  ARGMESH_ASSIGN_OR_RETURN(
+      std::unique_ptr<SqliteConnection> connection,
+      SqliteConnection::Open(path, SqliteConnection::Mode::kReadWrite));
+  ARGMESH_RETURN_IF_ERROR(Migrate(*connection, path, CatalogMigrations()));
+  if (existed && !clean) {
+    ARGMESH_RETURN_IF_ERROR(CheckDatabase(*connection));
+  }
+  ARGMESH_RETURN_IF_ERROR(SyncDirectory(directory->path()));
+  return std::unique_ptr<SqliteCatalog>(
+      new SqliteCatalog(std::move(directory), std::move(connection), options));
+}
+
+SqliteCatalog::SqliteCatalog(std::shared_ptr<DataDirectory> directory,
+                             std::unique_ptr<SqliteConnection> connection,
+                             const SqliteCatalogOptions& options)
+    : directory_(std::move(directory)),
+      writer_(std::move(connection), options.writer),
+      readers_(directory_->database_path(), options.max_readers) {}
+
+SqliteCatalog::~SqliteCatalog() { (void)Close(); }
+
+absl::Status SqliteCatalog::Close() {
+  const std::lock_guard lock(close_mutex_);
+  if (closed_) return absl::OkStatus();
+  closed_ = true;
+  readers_.Close();  // first: a reader would keep the log from truncation
+  ARGMESH_RETURN_IF_ERROR(writer_.Close());
+  return directory_->MarkClean();
+}
+
+}  // namespace argmesh

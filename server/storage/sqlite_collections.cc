@@ -1,0 +1,176 @@
+// Collections in SQLite.
+#include <utility>
+
+#include "core/base/status_macros.h"
+#include "server/engine/catalog_errors.h"
+#include "server/engine/record_codec.h"
+#include "server/storage/catalog_rows.h"
+#include "server/storage/request_memory.h"
+#include "server/storage/sqlite_catalog.h"
+#include "server/storage/unreferenced_mesh.h"
+
+namespace argmesh {
+namespace {
+
+constexpr int64_t kCollectionBytes = 1024;
+
+absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
+                                        const CollectionRecord& record,
+                                        const RequestStamp& request) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           RecallRequest(connection, request));
+  if (answer) return ParseCollectionRecord(*answer);
+  const absl::StatusOr<CollectionRow> taken =
+      FindCollectionRow(connection, record.id);
+  if (taken.ok()) return CollectionExistsError(record.id);
+  if (!absl::IsNotFound(taken.status())) return taken.status();
+  const std::string settings = SerializeCollectionSettings(record.settings);
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("INSERT INTO collection (name, uid, display_name, settings, "
+               "graph_version, revision, create_us, update_us) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+               record.id, record.uid, record.display_name, SqliteBlob(settings),
+               record.graph_version, record.revision,
+               absl::ToUnixMicros(record.create_time),
+               absl::ToUnixMicros(record.update_time))
+          .status());
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRow inserted,
+                           FindCollectionRow(connection, record.id));
+  ARGMESH_RETURN_IF_ERROR(RememberRequest(
+      connection, request, SerializeCollectionRecord(inserted.record)));
+  return std::move(inserted.record);
+}
+
+absl::StatusOr<CollectionRecord> Update(SqliteConnection& connection,
+                                        const CollectionPatch& patch) {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
+                           FindCollectionRow(connection, patch.id));
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(row.record)));
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("UPDATE collection SET display_name = ?, update_us = ?, "
+               "revision = revision + 1 WHERE id = ?",
+               patch.display_name.value_or(row.record.display_name),
+               absl::ToUnixMicros(patch.update_time), row.number)
+          .status());
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRow updated,
+                           FindCollectionRow(connection, patch.id));
+  return std::move(updated.record);
+}
+
+absl::StatusOr<std::vector<Sha256Digest>> MeshesOf(SqliteConnection& connection,
+                                                   int64_t collection) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      SqliteStatement statement,
+      connection.Query("SELECT DISTINCT mesh_sha256 FROM shape "
+                       "WHERE collection_id = ? AND mesh_sha256 IS NOT NULL "
+                       "ORDER BY mesh_sha256",
+                       collection));
+  std::vector<Sha256Digest> meshes;
+  while (true) {
+    ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+    if (!row) return meshes;
+    ARGMESH_ASSIGN_OR_RETURN(const Sha256Digest sha256, statement.Digest(0));
+    meshes.push_back(sha256);
+  }
+}
+
+absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
+                                         const CollectionDelete& removal) {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
+                           FindCollectionRow(connection, removal.id));
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, CollectionEtag(row.record)));
+  if (row.record.shape_count > 0 && !removal.force) {
+    return CollectionNotEmptyError(removal.id);
+  }
+  CollectionDeleted deleted;
+  deleted.uid = row.record.uid;
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<Sha256Digest> meshes,
+                           MeshesOf(connection, row.number));
+  ARGMESH_RETURN_IF_ERROR(
+      connection.Run("DELETE FROM shape WHERE collection_id = ?", row.number)
+          .status());
+  ARGMESH_RETURN_IF_ERROR(
+      connection.Run("DELETE FROM collection WHERE id = ?", row.number)
+          .status());
+  for (const Sha256Digest& sha256 : meshes) {
+    ARGMESH_ASSIGN_OR_RETURN(const bool gone,
+                             DeleteUnreferencedMesh(connection, sha256));
+    if (gone) deleted.unreferenced.push_back(sha256);
+  }
+  return deleted;
+}
+
+}  // namespace
+
+absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
+    const CollectionRecord& record, const RequestStamp& request) {
+  ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(kCollectionBytes));
+  absl::StatusOr<CollectionRecord> inserted;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
+        inserted = Insert(connection, record, request);
+        return inserted.status();
+      }));
+  return inserted;
+}
+
+absl::StatusOr<CollectionRecord> SqliteCatalog::UpdateCollection(
+    const CollectionPatch& patch) {
+  absl::StatusOr<CollectionRecord> updated;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
+        updated = Update(connection, patch);
+        return updated.status();
+      }));
+  return updated;
+}
+
+absl::StatusOr<CollectionDeleted> SqliteCatalog::DeleteCollection(
+    const CollectionDelete& removal) {
+  absl::StatusOr<CollectionDeleted> deleted;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
+        deleted = Delete(connection, removal);
+        return deleted.status();
+      }));
+  return deleted;
+}
+
+absl::StatusOr<CollectionRecord> SqliteCatalog::GetCollection(
+    std::string_view id) const {
+  CollectionRecord record;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(CollectionRow row,
+                                 FindCollectionRow(connection, id));
+        record = std::move(row.record);
+        return absl::OkStatus();
+      }));
+  return record;
+}
+
+absl::StatusOr<std::vector<CollectionRecord>> SqliteCatalog::ListCollections(
+    std::string_view after_id, int limit) const {
+  std::vector<CollectionRecord> records;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query("SELECT " ARGMESH_COLLECTION_COLUMNS
+                             " FROM collection c WHERE c.name > ? "
+                             "ORDER BY c.name LIMIT ?",
+                             after_id, limit));
+        while (true) {
+          ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+          if (!row) return absl::OkStatus();
+          ARGMESH_ASSIGN_OR_RETURN(CollectionRow collection,
+                                   ReadCollectionRow(statement));
+          records.push_back(std::move(collection.record));
+        }
+      }));
+  return records;
+}
+
+}  // namespace argmesh

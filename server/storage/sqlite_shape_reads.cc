@@ -1,0 +1,256 @@
+// Shapes and graphs in SQLite: reads.
+#include <utility>
+
+#include "core/base/crc32c.h"
+#include "core/base/status_macros.h"
+#include "server/engine/catalog_errors.h"
+#include "server/engine/record_codec.h"
+#include "server/storage/catalog_rows.h"
+#include "server/storage/label_compression.h"
+#include "server/storage/request_memory.h"
+#include "server/storage/sqlite_catalog.h"
+
+namespace argmesh {
+namespace {
+
+// A blob and its checksum in the next column.
+absl::StatusOr<std::string> CheckedBlob(const SqliteStatement& row, int column,
+                                        const ShapeRecord& record) {
+  if (row.IsNull(column)) {
+    return DamagedRow(record.collection, record.id, "its graph is missing");
+  }
+  std::string bytes = row.Blob(column);
+  if (ComputeCrc32c(bytes) != row.Int(column + 1)) {
+    return DamagedRow(record.collection, record.id,
+                      "stored bytes fail their checksum");
+  }
+  return bytes;
+}
+
+// The row of a query for the shape's columns, then version, arg, crc32c.
+ScannedGraph ReadScannedRow(const SqliteStatement& row) {
+  ScannedGraph scanned;
+  absl::StatusOr<ShapeRow> shape = ReadShapeRow(row);
+  if (!shape.ok()) {
+    scanned.record.collection = row.Text(1);
+    scanned.record.id = row.Text(2);
+    scanned.status = shape.status();
+    return scanned;
+  }
+  scanned.record = std::move(shape->record);
+  scanned.graph_version = static_cast<uint32_t>(row.Int(kShapeColumns));
+  absl::StatusOr<std::string> graph =
+      CheckedBlob(row, kShapeColumns + 1, scanned.record);
+  scanned.status = graph.status();
+  if (graph.ok()) scanned.graph = *std::move(graph);
+  return scanned;
+}
+
+absl::Status ReadLabels(SqliteConnection& connection, int64_t shape,
+                        StoredGraph& stored) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      SqliteStatement row,
+      connection.Query("SELECT raw_bytes, labels, crc32c FROM face_label "
+                       "WHERE shape_id = ?",
+                       shape));
+  ARGMESH_ASSIGN_OR_RETURN(const bool found, row.Step());
+  const ShapeRecord& record = stored.record;
+  if (!found) {
+    return DamagedRow(record.collection, record.id, "its labels are missing");
+  }
+  ARGMESH_ASSIGN_OR_RETURN(const std::string compressed,
+                           CheckedBlob(row, 1, record));
+  absl::StatusOr<std::string> labels = DecompressLabels(compressed, row.Int(0));
+  if (!labels.ok()) {
+    return DamagedRow(record.collection, record.id,
+                      std::string(labels.status().message()));
+  }
+  stored.labels = *std::move(labels);
+  return absl::OkStatus();
+}
+
+absl::Status ReadStoredGraph(SqliteConnection& connection,
+                             std::string_view collection, std::string_view id,
+                             bool with_labels, StoredGraph& stored) {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow found,
+                           FindCollectionRow(connection, collection));
+  ARGMESH_ASSIGN_OR_RETURN(
+      SqliteStatement row,
+      connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
+                       ", g.algorithm_version, g.arg, g.crc32c FROM shape s "
+                       "JOIN collection c ON c.id = s.collection_id "
+                       "LEFT JOIN graph g ON g.shape_id = s.id "
+                       "WHERE s.collection_id = ? AND s.name = ?",
+                       found.number, id));
+  ARGMESH_ASSIGN_OR_RETURN(const bool has_row, row.Step());
+  if (!has_row) return ShapeNotFoundError(collection, id);
+  const int64_t shape = row.Int(0);
+  ScannedGraph scanned = ReadScannedRow(row);
+  ARGMESH_RETURN_IF_ERROR(scanned.status);
+  stored.record = std::move(scanned.record);
+  stored.graph_version = scanned.graph_version;
+  stored.graph = std::move(scanned.graph);
+  return with_labels ? ReadLabels(connection, shape, stored) : absl::OkStatus();
+}
+
+constexpr char kScan[] =
+    "SELECT " ARGMESH_SHAPE_COLUMNS
+    ", g.algorithm_version, g.arg, g.crc32c FROM collection c "
+    "JOIN shape s ON s.collection_id = c.id "
+    "LEFT JOIN graph g ON g.shape_id = s.id "
+    "WHERE c.uid = ? AND s.name > ? ORDER BY s.name LIMIT ?";
+constexpr char kFind[] =
+    "SELECT " ARGMESH_SHAPE_COLUMNS
+    ", g.algorithm_version, g.arg, g.crc32c FROM collection c "
+    "JOIN shape s ON s.collection_id = c.id "
+    "LEFT JOIN graph g ON g.shape_id = s.id "
+    "WHERE c.uid = ? AND s.name = ?";
+
+}  // namespace
+
+absl::StatusOr<ShapeRecord> SqliteCatalog::GetShape(std::string_view collection,
+                                                    std::string_view id) const {
+  ShapeRecord record;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const CollectionRow found,
+                                 FindCollectionRow(connection, collection));
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
+                             " FROM shape s JOIN collection c "
+                             "ON c.id = s.collection_id "
+                             "WHERE s.collection_id = ? AND s.name = ?",
+                             found.number, id));
+        ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+        if (!row) return ShapeNotFoundError(collection, id);
+        ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
+        record = std::move(shape.record);
+        return absl::OkStatus();
+      }));
+  return record;
+}
+
+absl::StatusOr<std::vector<ShapeRecord>> SqliteCatalog::ListShapes(
+    std::string_view collection, std::string_view after_id, int limit) const {
+  std::vector<ShapeRecord> records;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const CollectionRow found,
+                                 FindCollectionRow(connection, collection));
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
+                             " FROM shape s JOIN collection c "
+                             "ON c.id = s.collection_id "
+                             "WHERE s.collection_id = ? AND s.name > ? "
+                             "ORDER BY s.name LIMIT ?",
+                             found.number, after_id, limit));
+        while (true) {
+          ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+          if (!row) return absl::OkStatus();
+          ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
+          records.push_back(std::move(shape.record));
+        }
+      }));
+  return records;
+}
+
+absl::StatusOr<StoredGraph> SqliteCatalog::ReadGraph(
+    std::string_view collection, std::string_view id, bool with_labels) const {
+  StoredGraph stored;
+  ARGMESH_RETURN_IF_ERROR(readers_.Read([&](SqliteConnection& connection) {
+    return ReadStoredGraph(connection, collection, id, with_labels, stored);
+  }));
+  return stored;
+}
+
+absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::ScanGraphs(
+    std::string_view collection_uid, std::string_view after_id,
+    int limit) const {
+  std::vector<ScannedGraph> scanned;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query(kScan, collection_uid, after_id, limit));
+        while (true) {
+          ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+          if (!row) return absl::OkStatus();
+          scanned.push_back(ReadScannedRow(statement));
+        }
+      }));
+  return scanned;
+}
+
+absl::StatusOr<ScannedGraph> SqliteCatalog::FindGraph(
+    std::string_view collection_uid, std::string_view id) const {
+  ScannedGraph scanned;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(SqliteStatement statement,
+                                 connection.Query(kFind, collection_uid, id));
+        ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+        if (!row) return ShapeNotFoundError(collection_uid, id);
+        scanned = ReadScannedRow(statement);
+        return absl::OkStatus();
+      }));
+  return scanned;
+}
+
+absl::StatusOr<std::vector<ShapeChange>> SqliteCatalog::ReadChanges(
+    std::string_view collection_uid, int64_t after_generation,
+    int limit) const {
+  std::vector<ShapeChange> changes;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query(
+                "SELECT l.generation, l.name, l.kind FROM collection c "
+                "JOIN change_log l ON l.collection_id = c.id "
+                "WHERE c.uid = ? AND l.generation > ? "
+                "ORDER BY l.generation LIMIT ?",
+                collection_uid, after_generation, limit));
+        while (true) {
+          ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+          if (!row) return absl::OkStatus();
+          changes.push_back({statement.Int(0), statement.Text(1),
+                             static_cast<ShapeChange::Kind>(statement.Int(2))});
+        }
+      }));
+  return changes;
+}
+
+absl::StatusOr<bool> SqliteCatalog::IsMeshReferenced(
+    const Sha256Digest& sha256) const {
+  bool referenced = false;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement statement,
+            connection.Query("SELECT 1 FROM mesh WHERE sha256 = ?",
+                             SqliteBlob(sha256)));
+        ARGMESH_ASSIGN_OR_RETURN(referenced, statement.Step());
+        return absl::OkStatus();
+      }));
+  return referenced;
+}
+
+absl::StatusOr<std::optional<ShapeWritten>> SqliteCatalog::FindPutShape(
+    const RequestStamp& request) const {
+  std::optional<ShapeWritten> found;
+  if (request.request_id.empty()) return found;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                                 RecallRequest(connection, request));
+        if (!answer) return absl::OkStatus();
+        ARGMESH_ASSIGN_OR_RETURN(found, ParseShapeWritten(*answer));
+        found->written = false;
+        return absl::OkStatus();
+      }));
+  return found;
+}
+
+}  // namespace argmesh

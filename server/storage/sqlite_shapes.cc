@@ -1,0 +1,289 @@
+// Shapes in SQLite: writes.
+#include <utility>
+
+#include "core/base/crc32c.h"
+#include "core/base/status_macros.h"
+#include "server/engine/catalog_errors.h"
+#include "server/engine/record_codec.h"
+#include "server/storage/catalog_rows.h"
+#include "server/storage/label_compression.h"
+#include "server/storage/request_memory.h"
+#include "server/storage/sqlite_catalog.h"
+#include "server/storage/unreferenced_mesh.h"
+
+namespace argmesh {
+namespace {
+
+constexpr int64_t kRowBytes = 2048;  // about what a shape's own row takes
+
+// What PutShape writes beside the record, made before its turn comes.
+struct PutBytes {
+  std::string labels;  // compressed
+  std::string details;
+  std::string metadata;
+};
+
+absl::StatusOr<std::optional<ShapeRow>> FindShapeRow(
+    SqliteConnection& connection, int64_t collection, std::string_view id) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      SqliteStatement statement,
+      connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
+                       " FROM shape s JOIN collection c "
+                       "ON c.id = s.collection_id "
+                       "WHERE s.collection_id = ? AND s.name = ?",
+                       collection, id));
+  ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+  if (!row) return std::nullopt;
+  ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
+  return shape;
+}
+
+// The collection's next generation, with the change in its log.
+absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
+                                  int64_t collection, const std::string& id,
+                                  ShapeChange::Kind kind, int added) {
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("UPDATE collection SET generation = generation + 1, "
+               "shape_count = shape_count + ? WHERE id = ?",
+               added, collection)
+          .status());
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t generation,
+      connection.QueryInt("SELECT generation FROM collection WHERE id = ?",
+                          collection));
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("INSERT INTO change_log (collection_id, generation, name, kind) "
+               "VALUES (?, ?, ?, ?)",
+               collection, generation, id, static_cast<int>(kind))
+          .status());
+  return generation;
+}
+
+absl::StatusOr<int64_t> WriteShapeRow(SqliteConnection& connection,
+                                      int64_t collection,
+                                      const ShapeRecord& record,
+                                      const PutBytes& bytes,
+                                      const std::optional<ShapeRow>& replaced) {
+  std::optional<SqliteBlob> mesh;
+  if (record.mesh_stored) {
+    mesh = SqliteBlob(record.sha256);
+    ARGMESH_RETURN_IF_ERROR(
+        connection
+            .Run("INSERT OR IGNORE INTO mesh (sha256, size_bytes, create_us) "
+                 "VALUES (?, ?, ?)",
+                 *mesh, record.size_bytes,
+                 absl::ToUnixMicros(record.create_time))
+            .status());
+  }
+  constexpr char kInsert[] =
+      "INSERT INTO shape (state, error, sha256, size_bytes, format, "
+      "mesh_sha256, display_name, source_uri, metadata, details, generation, "
+      "update_us, create_us, uid, collection_id, name) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+  constexpr char kUpdate[] =
+      "UPDATE shape SET state = ?, error = ?, sha256 = ?, size_bytes = ?, "
+      "format = ?, mesh_sha256 = ?, display_name = ?, source_uri = ?, "
+      "metadata = ?, details = ?, generation = ?, update_us = ?, "
+      "create_us = ?, uid = ? WHERE collection_id = ? AND name = ?";
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run(replaced ? kUpdate : kInsert, static_cast<int>(record.state),
+               record.error, SqliteBlob(record.sha256), record.size_bytes,
+               static_cast<int>(record.format), mesh, record.display_name,
+               record.source_uri, bytes.metadata, SqliteBlob(bytes.details),
+               record.generation, absl::ToUnixMicros(record.update_time),
+               absl::ToUnixMicros(record.create_time), record.uid, collection,
+               record.id)
+          .status());
+  return replaced ? replaced->number : connection.last_insert_id();
+}
+
+absl::Status WriteGraph(SqliteConnection& connection, int64_t shape,
+                        const ShapePut& put, const PutBytes& bytes) {
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("INSERT OR REPLACE INTO graph (shape_id, algorithm_version, "
+               "arg, crc32c) VALUES (?, ?, ?, ?)",
+               shape, put.graph_version, SqliteBlob(put.graph),
+               ComputeCrc32c(put.graph))
+          .status());
+  return connection
+      .Run(
+          "INSERT OR REPLACE INTO face_label (shape_id, raw_bytes, labels, "
+          "crc32c) VALUES (?, ?, ?, ?)",
+          shape, static_cast<int64_t>(put.labels.size()),
+          SqliteBlob(bytes.labels), ComputeCrc32c(bytes.labels))
+      .status();
+}
+
+absl::StatusOr<CollectionRow> FindCollectionOf(SqliteConnection& connection,
+                                               const ShapePut& put) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      CollectionRow row, FindCollectionRow(connection, put.record.collection));
+  if (row.record.uid != put.collection_uid) {
+    return CollectionNotFoundError(put.record.collection);
+  }
+  return row;
+}
+
+// OK and no value: the shape is to be written.
+absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
+    const ShapePut& put, const std::optional<ShapeRow>& stored) {
+  if (!stored) {
+    if (put.etag.empty()) return std::nullopt;
+    return ShapeNotFoundError(put.record.collection, put.record.id);
+  }
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(put.etag, ShapeEtag(stored->record)));
+  if (put.if_exists == IfExists::kReplace) return std::nullopt;
+  if (put.if_exists == IfExists::kReturnSame &&
+      stored->record.sha256 == put.record.sha256) {
+    return ShapeWritten{stored->record, put.collection_uid, false, {}};
+  }
+  return ShapeExistsError(put.record.collection, put.record.id);
+}
+
+absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
+                                 const ShapePut& put, const PutBytes& bytes) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           RecallRequest(connection, put.request));
+  if (answer) {
+    ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(*answer));
+    first.written = false;
+    return first;
+  }
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
+                           FindCollectionOf(connection, put));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const std::optional<ShapeRow> stored,
+      FindShapeRow(connection, collection.number, put.record.id));
+  ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
+                           AnswerStored(put, stored));
+  if (kept) return *std::move(kept);
+
+  ShapeWritten written{put.record, put.collection_uid, true, {}};
+  ARGMESH_ASSIGN_OR_RETURN(
+      written.record.generation,
+      LogChange(connection, collection.number, put.record.id,
+                ShapeChange::Kind::kPut, stored ? 0 : 1));
+  if (stored) {
+    written.record.uid = stored->record.uid;
+    written.record.create_time = stored->record.create_time;
+  }
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t shape,
+                           WriteShapeRow(connection, collection.number,
+                                         written.record, bytes, stored));
+  ARGMESH_RETURN_IF_ERROR(WriteGraph(connection, shape, put, bytes));
+  if (stored && stored->record.mesh_stored) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const bool gone,
+        DeleteUnreferencedMesh(connection, stored->record.sha256));
+    if (gone) written.unreferenced.push_back(stored->record.sha256);
+  }
+  ARGMESH_RETURN_IF_ERROR(
+      RememberRequest(connection, put.request, SerializeShapeWritten(written)));
+  return written;
+}
+
+absl::StatusOr<ShapeWritten> Patch(SqliteConnection& connection,
+                                   const ShapePatch& patch) {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
+                           FindCollectionRow(connection, patch.collection));
+  ARGMESH_ASSIGN_OR_RETURN(
+      std::optional<ShapeRow> stored,
+      FindShapeRow(connection, collection.number, patch.id));
+  if (!stored) return ShapeNotFoundError(patch.collection, patch.id);
+  ShapeRecord& record = stored->record;
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
+  if (patch.display_name) record.display_name = *patch.display_name;
+  if (patch.source_uri) record.source_uri = *patch.source_uri;
+  if (patch.metadata) record.metadata = *patch.metadata;
+  record.update_time = patch.update_time;
+  ARGMESH_ASSIGN_OR_RETURN(record.generation,
+                           LogChange(connection, collection.number, patch.id,
+                                     ShapeChange::Kind::kPut, 0));
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("UPDATE shape SET display_name = ?, source_uri = ?, "
+               "metadata = ?, generation = ?, update_us = ? WHERE id = ?",
+               record.display_name, record.source_uri,
+               SerializeMetadata(record.metadata), record.generation,
+               absl::ToUnixMicros(record.update_time), stored->number)
+          .status());
+  return ShapeWritten{std::move(record), collection.record.uid, true, {}};
+}
+
+absl::StatusOr<ShapeDeleted> Delete(SqliteConnection& connection,
+                                    const ShapeDelete& removal) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           RecallRequest(connection, removal.request));
+  if (answer) return ParseShapeDeleted(*answer);
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
+                           FindCollectionRow(connection, removal.collection));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const std::optional<ShapeRow> stored,
+      FindShapeRow(connection, collection.number, removal.id));
+  if (!stored) return ShapeNotFoundError(removal.collection, removal.id);
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, ShapeEtag(stored->record)));
+  ShapeDeleted deleted;
+  deleted.collection_uid = collection.record.uid;
+  ARGMESH_ASSIGN_OR_RETURN(deleted.generation,
+                           LogChange(connection, collection.number, removal.id,
+                                     ShapeChange::Kind::kDelete, -1));
+  ARGMESH_RETURN_IF_ERROR(
+      connection.Run("DELETE FROM shape WHERE id = ?", stored->number)
+          .status());
+  if (stored->record.mesh_stored) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const bool gone,
+        DeleteUnreferencedMesh(connection, stored->record.sha256));
+    if (gone) deleted.unreferenced.push_back(stored->record.sha256);
+  }
+  ARGMESH_RETURN_IF_ERROR(RememberRequest(connection, removal.request,
+                                          SerializeShapeDeleted(deleted)));
+  return deleted;
+}
+
+}  // namespace
+
+absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
+  PutBytes bytes;
+  ARGMESH_ASSIGN_OR_RETURN(bytes.labels, CompressLabels(put.labels));
+  bytes.details = SerializeShapeDetails(put.record);
+  bytes.metadata = SerializeMetadata(put.record.metadata);
+  const auto size =
+      static_cast<int64_t>(put.graph.size() + bytes.labels.size()) + kRowBytes;
+  ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(size));
+  absl::StatusOr<ShapeWritten> written;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(size, [&](SqliteConnection& connection) {
+        written = Put(connection, put, bytes);
+        return written.status();
+      }));
+  return written;
+}
+
+absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
+    const ShapePatch& patch) {
+  absl::StatusOr<ShapeWritten> written;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+        written = Patch(connection, patch);
+        return written.status();
+      }));
+  return written;
+}
+
+absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShape(
+    const ShapeDelete& removal) {
+  absl::StatusOr<ShapeDeleted> deleted;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+        deleted = Delete(connection, removal);
+        return deleted.status();
+      }));
+  return deleted;
+}
+
+}  // namespace argmesh
