@@ -2,26 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 
 namespace argmesh {
 namespace {
 
 constexpr float kUnreached = std::numeric_limits<float>::infinity();
-
-using HeapEntry = std::pair<float, int32_t>;
-
-void Push(std::vector<HeapEntry>& heap, float distance, int32_t vertex) {
-  heap.emplace_back(distance, vertex);
-  std::push_heap(heap.begin(), heap.end(), std::greater<>());
-}
-
-HeapEntry Pop(std::vector<HeapEntry>& heap) {
-  std::pop_heap(heap.begin(), heap.end(), std::greater<>());
-  const HeapEntry top = heap.back();
-  heap.pop_back();
-  return top;
-}
 
 }  // namespace
 
@@ -42,11 +27,11 @@ std::span<const ReachedVertex> GeodesicSolver::Search(int source,
     distance[reached.vertex] = kUnreached;
   }
   reached_.clear();
-  heap_.clear();
+  queue_.Clear();
   distance[source] = 0;
-  heap_.emplace_back(0.0F, source);
-  while (!heap_.empty()) {
-    const auto [d, v] = Pop(heap_);
+  queue_.Push(0, source);
+  while (!queue_.empty()) {
+    const auto [d, v] = queue_.Pop();
     if (d > distance[v]) continue;
     reached_.push_back({v, d});
     for (int32_t e = offsets[v]; e < offsets[v + 1]; ++e) {
@@ -56,7 +41,7 @@ std::span<const ReachedVertex> GeodesicSolver::Search(int source,
         continue;
       }
       distance[w] = through;
-      Push(heap_, through, w);
+      queue_.Push(through, w);
     }
   }
   return reached_;
@@ -79,14 +64,14 @@ namespace {
 
 // Gives every vertex nearer to `seed` than to its present seed over to `cell`.
 void RelaxFrom(const SurfaceGraph& graph, int32_t seed, int32_t cell,
-               std::vector<HeapEntry>& heap, FarthestPointCells& cells) {
+               VertexQueue& queue, FarthestPointCells& cells) {
   float* const distance = cells.distance.data();
   int32_t* const cell_of = cells.cell_of_vertex.data();
   distance[seed] = 0;
   cell_of[seed] = cell;
-  heap.assign(1, {0.0F, seed});
-  while (!heap.empty()) {
-    const auto [d, v] = Pop(heap);
+  queue.Push(0, seed);
+  while (!queue.empty()) {
+    const auto [d, v] = queue.Pop();
     if (d > distance[v]) continue;
     for (int32_t e = graph.offsets.data()[v]; e < graph.offsets.data()[v + 1];
          ++e) {
@@ -95,7 +80,7 @@ void RelaxFrom(const SurfaceGraph& graph, int32_t seed, int32_t cell,
       if (through >= distance[w]) continue;
       distance[w] = through;
       cell_of[w] = cell;
-      Push(heap, through, w);
+      queue.Push(through, w);
     }
   }
 }
@@ -114,10 +99,10 @@ FarthestPointCells ComputeFarthestPointCells(const SurfaceGraph& graph,
   FarthestPointCells cells;
   cells.cell_of_vertex.assign(n, 0);
   cells.distance.assign(n, kUnreached);
-  std::vector<HeapEntry> heap;
+  VertexQueue queue;
   int32_t seed = first_seed;
   while (n > 0 && static_cast<int>(cells.seeds.size()) < count) {
-    RelaxFrom(graph, seed, static_cast<int32_t>(cells.seeds.size()), heap,
+    RelaxFrom(graph, seed, static_cast<int32_t>(cells.seeds.size()), queue,
               cells);
     cells.seeds.push_back(seed);
     seed = Farthest(cells.distance);

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/geometry/surface_graph.h"
+#include "core/geometry/vertex_queue.h"
 
 namespace argmesh {
 
@@ -44,7 +44,7 @@ class GeodesicSolver {
   const SurfaceGraph& graph_;
   std::vector<float> distance_;
   std::vector<ReachedVertex> reached_;
-  std::vector<std::pair<float, int32_t>> heap_;
+  VertexQueue queue_;
 };
 
 // Voronoi cells of farthest-point samples.
