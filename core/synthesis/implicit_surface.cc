@@ -27,16 +27,29 @@ void ImplicitSurface::BeginPart(std::string_view name) {
   if (found == part_names_.end()) part_names_.emplace_back(name);
 }
 
-void ImplicitSurface::Add(Primitive primitive, double blend) {
+void ImplicitSurface::Append(Primitive primitive, double blend, bool cut) {
   if (current_part_ < 0) BeginPart("body");
   max_blend_ = std::max(max_blend_, blend);
-  terms_.push_back({std::move(primitive), blend, false, current_part_});
+  terms_.push_back(
+      {std::move(primitive), blend, cut, current_part_, num_groups_});
+}
+
+void ImplicitSurface::Add(Primitive primitive, double blend) {
+  Append(std::move(primitive), blend, false);
+  ++num_groups_;
+}
+
+void ImplicitSurface::AddUnion(std::vector<Primitive> primitives,
+                               double blend) {
+  for (Primitive& primitive : primitives) {
+    Append(std::move(primitive), blend, false);
+  }
+  ++num_groups_;
 }
 
 void ImplicitSurface::Cut(Primitive primitive, double blend) {
-  if (current_part_ < 0) BeginPart("body");
-  max_blend_ = std::max(max_blend_, blend);
-  terms_.push_back({std::move(primitive), blend, true, current_part_});
+  Append(std::move(primitive), blend, true);
+  ++num_groups_;
 }
 
 Eigen::AlignedBox3d ImplicitSurface::Bounds() const {
@@ -55,9 +68,16 @@ double ImplicitSurface::Combine(const Term& term, double so_far, double own) {
 double ImplicitSurface::Distance(const Eigen::Vector3d& p,
                                  std::span<const int32_t> terms) const {
   double distance = kFar;
-  for (const int32_t t : terms) {
-    const Term& term = terms_[static_cast<size_t>(t)];
-    distance = Combine(term, distance, term.primitive.Distance(p));
+  double of_group = kFar;
+  for (size_t i = 0; i < terms.size(); ++i) {
+    const Term& term = terms_[static_cast<size_t>(terms[i])];
+    of_group = std::min(of_group, term.primitive.Distance(p));
+    if (i + 1 < terms.size() &&
+        terms_[static_cast<size_t>(terms[i + 1])].group == term.group) {
+      continue;
+    }
+    distance = Combine(term, distance, of_group);
+    of_group = kFar;
   }
   return distance;
 }
@@ -73,6 +93,7 @@ std::vector<int32_t> ImplicitSurface::TermsNear(const Eigen::Vector3d& p,
     own[i] = term.primitive.Distance(p);
     total = Combine(term, total, own[i]);
   }
+  // Blending a union's members one by one errs toward nearer: fewer is culled.
   // Inside the ball the surface comes at most `radius` closer and a primitive
   // reaches at most `radius` nearer, so beyond this nothing can be felt.
   const double reach = kCullSlack * (2 * radius + max_blend_);

@@ -32,6 +32,9 @@ class ImplicitSurface {
   // before continues that part.
   void BeginPart(std::string_view name);
   void Add(Primitive primitive, double blend = 0);
+  // Primitives that first unite sharply and then blend as one, so that the
+  // joints of a tube do not swell.
+  void AddUnion(std::vector<Primitive> primitives, double blend = 0);
   // Takes the primitive's solid away.
   void Cut(Primitive primitive, double blend = 0);
 
@@ -60,12 +63,15 @@ class ImplicitSurface {
     double blend = 0;
     bool cut = false;
     int32_t part = 0;
+    int32_t group = 0;  // terms of one union are neighbours
   };
+  void Append(Primitive primitive, double blend, bool cut);
   static double Combine(const Term& term, double so_far, double own);
 
   std::vector<Term> terms_;
   std::vector<std::string> part_names_;
   int32_t current_part_ = -1;
+  int32_t num_groups_ = 0;
   double max_blend_ = 0;
 };
 

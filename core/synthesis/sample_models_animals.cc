@@ -72,8 +72,8 @@ SampleModel MakeQuadruped(Random& random) {
   QuadrupedSize size;
   size.body = random.Uniform(0.5, 0.66);
   size.girth = random.Uniform(0.13, 0.17);
-  size.leg = random.Uniform(0.42, 0.58);
-  size.neck = random.Uniform(0.22, 0.4);
+  size.leg = random.Uniform(0.36, 0.6);
+  size.neck = random.Uniform(0.2, 0.46);
   size.neck_angle = random.Uniform(25, 60);
   size.head = random.Uniform(0.1, 0.13);
   SampleModel model;
@@ -226,7 +226,7 @@ SampleModel MakeOctopus(Random& random) {
 SampleModel MakeAnt(Random& random) {
   SampleModel model;
   ImplicitSurface& surface = model.surface;
-  const double abdomen = random.Uniform(0.2, 0.25);
+  const double abdomen = random.Uniform(0.16, 0.27);
   surface.BeginPart("thorax");
   surface.Add(MakeEllipsoid(Pose::Identity(), {0.085, 0.17, 0.085}));
   surface.BeginPart("abdomen");
@@ -250,8 +250,8 @@ SampleModel MakeAnt(Random& random) {
     AddSweep(surface, antenna, {.blend = 0.008, .pieces = 4});
     surface.BeginPart("legs");
     for (int leg = -1; leg <= 1; ++leg) {
-      const double swing = leg * 0.17 + random.Uniform(-0.06, 0.06);
-      const double knee = random.Uniform(0.12, 0.18);
+      const double swing = leg * 0.17 + random.Uniform(-0.09, 0.09);
+      const double knee = random.Uniform(0.08, 0.22);
       const Vector3d hip(side * 0.06, 0.09 * leg, -0.03);
       const Vector3d joint(side * 0.26, 0.09 * leg + 0.7 * swing, knee);
       const Vector3d foot(side * 0.46, 0.09 * leg + 1.6 * swing, -0.26);

@@ -103,7 +103,7 @@ SampleModel MakeHand(Random& random) {
   ImplicitSurface& surface = model.surface;
   surface.BeginPart("palm");
   surface.Add(MakeBox(At(0, 0, 0.2), {0.125, 0.02, 0.13}, 0.045));
-  surface.Add(MakeCapsule({0, 0, 0.1}, {0, 0.01, -0.22}, 0.105, 0.085), 0.06);
+  surface.Add(MakeBox(At(0, 0.005, -0.05), {0.05, 0.004, 0.2}, 0.055), 0.09);
   const std::array<double, 4> lengths = {0.37, 0.42, 0.39, 0.3};
   for (size_t i = 0; i < lengths.size(); ++i) {
     surface.BeginPart("fingers");

@@ -158,7 +158,7 @@ SampleModel MakeChair(Random& random) {
 }
 
 SampleModel MakeTable(Random& random) {
-  const bool round = random.Below(3) == 0;
+  const bool round = random.Below(5) < 2;
   const double width = random.Uniform(0.5, 0.7);
   const double depth = round ? width : random.Uniform(0.3, 0.42);
   const double height = random.Uniform(0.45, 0.62);
@@ -179,9 +179,10 @@ SampleModel MakeTable(Random& random) {
     for (const double y : {-1.0, 1.0}) {
       const double top_x = x * (inset * width - 0.02);
       const double top_y = y * (inset * depth - 0.02);
-      surface.Add(MakeCapsule({top_x + x * splay, top_y + y * splay, 0},
-                              {top_x, top_y, height}, 0.8 * leg, 1.1 * leg),
-                  0.015);
+      surface.Add(
+          MakeCapsule({top_x + x * splay, top_y + y * splay, 0},
+                      {top_x, top_y, height - 1.1 * leg}, 0.8 * leg, 1.1 * leg),
+          0.015);
     }
   }
   return model;

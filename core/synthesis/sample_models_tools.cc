@@ -57,8 +57,8 @@ void AddRing(ImplicitSurface& surface, const Pose& pose, double size) {
 }  // namespace
 
 SampleModel MakePliers(Random& random) {
-  const double opening = random.Uniform(8, 24);
-  const double length = random.Uniform(0.6, 0.78);
+  const double opening = random.Uniform(7, 30);
+  const double length = random.Uniform(0.52, 0.85);
   SampleModel model;
   AddLever(model.surface, TurnZ(opening), 1, length);
   AddLever(model.surface, TurnZ(-opening), -1, length);
@@ -71,8 +71,8 @@ SampleModel MakePliers(Random& random) {
 }
 
 SampleModel MakeWrench(Random& random) {
-  const double half = random.Uniform(0.42, 0.5);
-  const double size = random.Uniform(0.11, 0.14);
+  const double half = random.Uniform(0.38, 0.52);
+  const double size = random.Uniform(0.1, 0.15);
   const bool ring = random.Below(2) == 0;
   SampleModel model{.surface = {}, .genus = ring ? 1 : 0};
   ImplicitSurface& surface = model.surface;
@@ -90,13 +90,13 @@ SampleModel MakeWrench(Random& random) {
 }
 
 SampleModel MakeKey(Random& random) {
-  const double length = random.Uniform(0.6, 0.75);
-  const double bow = random.Uniform(0.14, 0.18);
+  const double length = random.Uniform(0.5, 0.8);
+  const double bow = random.Uniform(0.12, 0.2);
   const double shaft = random.Uniform(0.03, 0.038);
   SampleModel model{.surface = {}, .genus = 1};
   ImplicitSurface& surface = model.surface;
   surface.BeginPart("bow");
-  surface.Add(MakeTorus(At(-bow, 0, 0), bow, random.Uniform(0.04, 0.05)));
+  surface.Add(MakeTorus(At(-bow, 0, 0), bow, random.Uniform(0.036, 0.055)));
   surface.BeginPart("shaft");
   surface.Add(MakeCapsule({0, 0, 0}, {length, 0, 0}, shaft, shaft), 0.02);
   surface.Add(MakeTorus(At(0.07, 0, 0) * TurnY(90), shaft, 0.022), 0.01);
@@ -212,8 +212,8 @@ void AddWings(ImplicitSurface& surface, double span, double sweep,
 
 SampleModel MakeAirplane(Random& random) {
   const double body = random.Uniform(0.06, 0.075);
-  const double sweep = random.Uniform(0.05, 0.26);
-  const double span = random.Uniform(0.46, 0.6);
+  const double sweep = random.Uniform(0.0, 0.32);
+  const double span = random.Uniform(0.42, 0.66);
   const double engine_at = random.Uniform(0.35, 0.5);
   SampleModel model;
   ImplicitSurface& surface = model.surface;

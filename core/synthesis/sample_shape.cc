@@ -24,15 +24,24 @@ struct SampleClass {
 constexpr int kMaxPoses = 8;
 
 constexpr std::array<SampleClass, 19> kClasses = {{
-    {"airplane", MakeAirplane},   {"ant", MakeAnt},
-    {"bird", MakeBird},           {"chair", MakeChair},
-    {"fish", MakeFish},           {"gear", MakeGear},
-    {"glasses", MakeGlasses},     {"hand", MakeHand},
-    {"human", MakeHuman},         {"key", MakeKey},
-    {"lamp", MakeLamp},           {"mug", MakeMug, 1.5},
-    {"octopus", MakeOctopus},     {"pliers", MakePliers},
-    {"quadruped", MakeQuadruped}, {"table", MakeTable},
-    {"teapot", MakeTeapot},       {"vase", MakeVase, 1.4},
+    {"airplane", MakeAirplane, 1.4},
+    {"ant", MakeAnt},
+    {"bird", MakeBird, 1.4},
+    {"chair", MakeChair, 1.3},
+    {"fish", MakeFish, 1.4},
+    {"gear", MakeGear, 1.6},
+    {"glasses", MakeGlasses},
+    {"hand", MakeHand},
+    {"human", MakeHuman},
+    {"key", MakeKey},
+    {"lamp", MakeLamp},
+    {"mug", MakeMug, 1.5},
+    {"octopus", MakeOctopus},
+    {"pliers", MakePliers},
+    {"quadruped", MakeQuadruped},
+    {"table", MakeTable, 1.5},
+    {"teapot", MakeTeapot},
+    {"vase", MakeVase, 1.4},
     {"wrench", MakeWrench},
 }};
 

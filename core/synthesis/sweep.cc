@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace argmesh {
 namespace {
@@ -32,6 +33,7 @@ void AddSweep(ImplicitSurface& surface, std::span<const SweepKnot> knots,
   const size_t n = knots.size();
   const size_t spans = options.closed ? n : n - 1;
   SweepKnot last = knots[0];
+  std::vector<Primitive> tube;
   for (size_t i = 0; i < spans; ++i) {
     const auto [p0, p1, p2, p3] = PointsOfSpan(i, n, options.closed);
     for (int piece = 1; piece <= options.pieces; ++piece) {
@@ -41,11 +43,12 @@ void AddSweep(ImplicitSurface& surface, std::span<const SweepKnot> knots,
           CatmullRom<Eigen::Vector3d>(knots[p0].point, knots[p1].point,
                                       knots[p2].point, knots[p3].point, t);
       next.radius = (1 - t) * knots[p1].radius + t * knots[p2].radius;
-      surface.Add(MakeCapsule(last.point, next.point, last.radius, next.radius),
-                  options.blend);
+      tube.push_back(
+          MakeCapsule(last.point, next.point, last.radius, next.radius));
       last = next;
     }
   }
+  surface.AddUnion(std::move(tube), options.blend);
 }
 
 Outline SmoothCurve(const Outline& points, int pieces, bool closed) {
