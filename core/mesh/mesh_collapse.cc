@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,11 +30,75 @@ struct Candidate {
   int32_t stamp;  // both ends unchanged since
 };
 
-// Heap order: the cheapest on top.
-bool IsWorse(const Candidate& x, const Candidate& y) {
-  if (x.cost != y.cost) return x.cost > y.cost;
-  return x.a != y.a ? x.a > y.a : x.b > y.b;
-}
+// Heap order: the cheapest on top. A type, so that the heap inlines it.
+struct IsWorse {
+  bool operator()(const Candidate& x, const Candidate& y) const {
+    if (x.cost != y.cost) return x.cost > y.cost;
+    return x.a != y.a ? x.a > y.a : x.b > y.b;
+  }
+};
+
+// Candidates in heap order. Only the cheap ones are in the heap, so that it
+// stays small; the others wait unordered until it is empty.
+class CandidateQueue {
+ public:
+  void Assign(std::vector<Candidate> candidates) {
+    waiting_ = std::move(candidates);
+    heap_.clear();
+    bound_ = -1;
+  }
+
+  void Push(const Candidate& candidate) {
+    if (candidate.cost > bound_) {
+      waiting_.push_back(candidate);
+      return;
+    }
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end(), IsWorse());
+  }
+
+  // The cheapest candidate; nothing when there is none. Those that `is_current`
+  // refuses can be left out.
+  template <class Predicate>
+  std::optional<Candidate> Pop(const Predicate& is_current) {
+    if (heap_.empty()) Refill(is_current);
+    if (heap_.empty()) return std::nullopt;
+    const Candidate top = heap_.front();
+    std::pop_heap(heap_.begin(), heap_.end(), IsWorse());
+    heap_.pop_back();
+    return top;
+  }
+
+ private:
+  static constexpr size_t kSmallestRefill = 1024;
+  static constexpr size_t kRefillsPerQueue = 16;
+
+  template <class Predicate>
+  void Refill(const Predicate& is_current) {
+    std::erase_if(waiting_,
+                  [&](const Candidate& edge) { return !is_current(edge); });
+    if (waiting_.empty()) return;
+    const size_t count =
+        std::min(waiting_.size(),
+                 std::max(kSmallestRefill, waiting_.size() / kRefillsPerQueue));
+    const auto last = waiting_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+    std::nth_element(
+        waiting_.begin(), last, waiting_.end(),
+        [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
+    bound_ = last->cost;
+    // All of equal cost come along, for the ties.
+    const auto rest = std::partition(
+        waiting_.begin(), waiting_.end(),
+        [this](const Candidate& edge) { return edge.cost > bound_; });
+    heap_.assign(rest, waiting_.end());
+    waiting_.erase(rest, waiting_.end());
+    std::make_heap(heap_.begin(), heap_.end(), IsWorse());
+  }
+
+  std::vector<Candidate> heap_;     // cost <= bound_
+  std::vector<Candidate> waiting_;  // cost > bound_
+  double bound_ = -1;
+};
 
 struct Placement {
   Eigen::Vector3d position;
@@ -50,16 +116,16 @@ class EdgeCollapser {
         alive_(mesh.num_vertices()) {
     const MeshEdges edges = ComputeMeshEdges(mesh.F, mesh.num_vertices());
     quadrics_ = ComputeVertexQuadrics(mesh, edges);
-    FillHeap(edges);
+    FillQueue(edges);
   }
 
   absl::Status Run(const StopToken& stop) {
     for (int round = 0; round < kMaxRounds; ++round) {
       const int before = alive_;
-      ARGMESH_RETURN_IF_ERROR(EmptyHeap(stop));
+      ARGMESH_RETURN_IF_ERROR(EmptyQueue(stop));
       if (alive_ <= options_.target_vertices || alive_ == before) break;
-      FillHeap(ComputeMeshEdges(halfedges_.CopyFaces(),
-                                static_cast<int>(V_.rows())));
+      FillQueue(ComputeMeshEdges(halfedges_.CopyFaces(),
+                                 static_cast<int>(V_.rows())));
     }
     return absl::OkStatus();
   }
@@ -71,21 +137,24 @@ class EdgeCollapser {
   }
 
  private:
-  void FillHeap(const MeshEdges& edges) {
-    heap_.clear();
-    heap_.reserve(edges.size());
-    for (const auto& [a, b] : edges.ends) heap_.push_back(MakeCandidate(a, b));
-    std::make_heap(heap_.begin(), heap_.end(), IsWorse);
+  void FillQueue(const MeshEdges& edges) {
+    std::vector<Candidate> candidates;
+    candidates.reserve(edges.size());
+    for (const auto& [a, b] : edges.ends) {
+      candidates.push_back(MakeCandidate(a, b));
+    }
+    queue_.Assign(std::move(candidates));
   }
 
-  absl::Status EmptyHeap(const StopToken& stop) {
-    for (int step = 0; alive_ > options_.target_vertices && !heap_.empty();
-         ++step) {
+  absl::Status EmptyQueue(const StopToken& stop) {
+    const auto is_current = [this](const Candidate& edge) {
+      return IsCurrent(edge);
+    };
+    for (int step = 0; alive_ > options_.target_vertices; ++step) {
       if (step % kStepsPerCheck == 0) ARGMESH_RETURN_IF_ERROR(stop.Check());
-      const Candidate top = heap_.front();
-      std::pop_heap(heap_.begin(), heap_.end(), IsWorse);
-      heap_.pop_back();
-      if (IsCurrent(top)) TryCollapse(top);
+      const std::optional<Candidate> edge = queue_.Pop(is_current);
+      if (!edge) break;
+      if (IsCurrent(*edge)) TryCollapse(*edge);
     }
     return absl::OkStatus();
   }
@@ -128,8 +197,7 @@ class EdgeCollapser {
     --alive_;
     halfedges_.GetRing(edge.a, ring_);
     for (const int32_t v : ring_) {
-      heap_.push_back(MakeCandidate(std::min(v, edge.a), std::max(v, edge.a)));
-      std::push_heap(heap_.begin(), heap_.end(), IsWorse);
+      queue_.Push(MakeCandidate(std::min(v, edge.a), std::max(v, edge.a)));
     }
   }
 
@@ -160,7 +228,7 @@ class EdgeCollapser {
   std::vector<PlaneQuadric> quadrics_;
   std::vector<int32_t> stamps_;
   int alive_;
-  std::vector<Candidate> heap_;
+  CandidateQueue queue_;
   std::vector<int32_t> ring_;
 };
 
