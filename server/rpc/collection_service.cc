@@ -1,0 +1,94 @@
+#include "server/rpc/collection_service.h"
+
+#include "core/base/status_macros.h"
+#include "server/rpc/convert_collection.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/unary_reactor.h"
+
+namespace argmesh {
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::CreateCollection(
+    grpc::CallbackServerContext* context,
+    const v1::CreateCollectionRequest* request, v1::Collection* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"CollectionService.CreateCollection"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        NewCollection spec;
+        ARGMESH_RETURN_IF_ERROR(
+            CheckResourceId("collection_id", request->collection_id()));
+        spec.id = request->collection_id();
+        spec.display_name = request->collection().display_name();
+        ARGMESH_ASSIGN_OR_RETURN(
+            spec.settings,
+            FromProto("collection.settings", request->collection().settings()));
+        spec.request.request_id = request->request_id();
+        ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord record,
+                                 environment_.engine.CreateCollection(spec));
+        *response = ToProto(record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::GetCollection(
+    grpc::CallbackServerContext* context,
+    const v1::GetCollectionRequest* request, v1::Collection* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"CollectionService.GetCollection"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                                 ParseCollectionName("name", request->name()));
+        ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord record,
+                                 environment_.engine.GetCollection(id));
+        *response = ToProto(record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::ListCollections(
+    grpc::CallbackServerContext* context,
+    const v1::ListCollectionsRequest* request,
+    v1::ListCollectionsResponse* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"CollectionService.ListCollections"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const CollectionPage page,
+                                 environment_.engine.ListCollections(
+                                     {.page_size = request->page_size(),
+                                      .page_token = request->page_token(),
+                                      .max_bytes = kMaxAnswerBytes}));
+        for (const CollectionRecord& record : page.collections) {
+          *response->add_collections() = ToProto(record);
+        }
+        response->set_next_page_token(page.next_page_token);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::UpdateCollection(
+    grpc::CallbackServerContext* context, const v1::UpdateCollectionRequest*,
+    v1::Collection*) {
+  return UnaryReactor::NotServed(environment_, context,
+                                 "CollectionService.UpdateCollection");
+}
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(
+    grpc::CallbackServerContext* context,
+    const v1::DeleteCollectionRequest* request, v1::DeleteCollectionResponse*) {
+  return UnaryReactor::Start(
+      environment_, context, {"CollectionService.DeleteCollection"},
+      [this, request](const StopToken&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                                 ParseCollectionName("name", request->name()));
+        return environment_.engine.DeleteCollection(
+            {.id = id, .force = request->force(), .etag = request->etag()});
+      });
+}
+
+grpc::ServerUnaryReactor* CollectionServiceImpl::ReindexCollection(
+    grpc::CallbackServerContext* context, const v1::ReindexCollectionRequest*,
+    google::longrunning::Operation*) {
+  return UnaryReactor::NotServed(environment_, context,
+                                 "CollectionService.ReindexCollection");
+}
+
+}  // namespace argmesh

@@ -1,0 +1,88 @@
+#include "server/rpc/convert_collection.h"
+
+#include <string>
+
+#include "absl/strings/str_format.h"
+#include "core/base/status_macros.h"
+#include "server/rpc/convert_mesh.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
+
+namespace argmesh {
+namespace {
+
+absl::StatusOr<DecompositionKind> KindFromProto(std::string_view field,
+                                                v1::DecompositionKind kind) {
+  switch (kind) {
+    case v1::DECOMPOSITION_KIND_UNSPECIFIED:
+      return CollectionSettings().decomposition;
+    case v1::DECOMPOSITION_KIND_BIHARMONIC:
+      return DecompositionKind::kBiharmonic;
+    case v1::DECOMPOSITION_KIND_NORMAL_CURVATURE:
+      return DecompositionKind::kNormalCurvature;
+    case v1::DECOMPOSITION_KIND_VORONOI:
+      return DecompositionKind::kVoronoi;
+    default:
+      return FieldInvalid(field,
+                          absl::StrFormat("%d cannot be a collection's setting",
+                                          static_cast<int>(kind)));
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<CollectionSettings> FromProto(
+    std::string_view field, const v1::CollectionSettings& settings) {
+  CollectionSettings out;
+  ARGMESH_ASSIGN_OR_RETURN(out.decomposition,
+                           KindFromProto(std::string(field) + ".decomposition",
+                                         settings.decomposition()));
+  if (settings.vertex_budget() != 0) {
+    out.vertex_budget = settings.vertex_budget();
+  }
+  if (settings.has_uniform_cells()) {
+    out.uniform_cells = settings.uniform_cells();
+  }
+  if (settings.has_store_meshes()) out.store_meshes = settings.store_meshes();
+  return out;
+}
+
+v1::CollectionSettings ToProto(const CollectionSettings& settings) {
+  v1::CollectionSettings out;
+  out.set_decomposition(ToProto(settings.decomposition));
+  out.set_vertex_budget(settings.vertex_budget);
+  out.set_uniform_cells(settings.uniform_cells);
+  out.set_store_meshes(settings.store_meshes);
+  return out;
+}
+
+v1::Collection ToProto(const CollectionRecord& record) {
+  v1::Collection out;
+  out.set_name(CollectionName(record.id));
+  out.set_uid(record.uid);
+  out.set_display_name(record.display_name);
+  *out.mutable_settings() = ToProto(record.settings);
+  out.set_shape_count(record.shape_count);
+  out.set_generation(record.generation);
+  *out.mutable_create_time() = ToTimestamp(record.create_time);
+  *out.mutable_update_time() = ToTimestamp(record.update_time);
+  out.set_etag(CollectionEtag(record));
+  out.set_graph_version(record.graph_version);
+  return out;
+}
+
+v1::DecompositionKind ToProto(DecompositionKind kind) {
+  switch (kind) {
+    case DecompositionKind::kBiharmonic:
+      return v1::DECOMPOSITION_KIND_BIHARMONIC;
+    case DecompositionKind::kNormalCurvature:
+      return v1::DECOMPOSITION_KIND_NORMAL_CURVATURE;
+    case DecompositionKind::kVoronoi:
+      return v1::DECOMPOSITION_KIND_VORONOI;
+    case DecompositionKind::kGiven:
+      return v1::DECOMPOSITION_KIND_GIVEN;
+  }
+  return v1::DECOMPOSITION_KIND_UNSPECIFIED;
+}
+
+}  // namespace argmesh

@@ -1,0 +1,33 @@
+// New shapes as shape_service.proto and ingest_service.proto announce them.
+#ifndef ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_
+#define ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_
+
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "argmesh/v1/ingest_service.pb.h"
+#include "argmesh/v1/shape_service.pb.h"
+#include "server/engine/mesh_upload.h"
+#include "server/engine/shape_requests.h"
+
+namespace argmesh {
+
+// NAME_INVALID, FIELD_REQUIRED, FIELD_INVALID; the engine checks the rest.
+absl::StatusOr<NewShape> FromProto(const v1::CreateShapeRequest& request);
+
+struct AnnouncedShape {
+  NewShape shape;
+  UploadAnnouncement upload;
+};
+absl::StatusOr<AnnouncedShape> FromProto(const v1::UploadShapeHeader& header);
+absl::StatusOr<AnnouncedShape> FromProto(std::string_view collection,
+                                         const v1::IngestItem& item);
+
+// STREAM_IDLE: the peer said nothing for `limit`.
+absl::Status StreamIdle(absl::Duration limit);
+// STREAM_ORDER_INVALID.
+absl::Status StreamOrderInvalid(std::string_view why);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_

@@ -1,0 +1,159 @@
+// The base of every reactor.
+//
+// gRPC's callback API never finishes a call whose reaction throws, and then
+// hangs Shutdown. So every reaction is caught here; the call is finished
+// exactly once; it is entered in the registry and left again; cancellation and
+// the deadline reach the StopToken; and the reactor lives as long as gRPC or a
+// task on a pool needs it.
+//
+//   class DownloadReactor : public GuardedReactor<grpc::ServerWriteReactor<R>>
+//   return StartReactor<DownloadReactor>(environment, context, ...);
+//
+// A subclass overrides Begin and the protected reactions of its kind; all run
+// outside the lock. After FinishOnce it starts nothing more.
+#ifndef ARGMESH_SERVER_RPC_GUARDED_REACTOR_H_
+#define ARGMESH_SERVER_RPC_GUARDED_REACTOR_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/time/clock.h"
+#include "server/engine/error_reason.h"
+#include "server/rpc/call_scope.h"
+
+namespace argmesh {
+
+template <typename Base>
+class GuardedReactor
+    : public Base,
+      public LiveCall,
+      public std::enable_shared_from_this<GuardedReactor<Base>> {
+ public:
+  GuardedReactor(ServiceEnvironment& environment,
+                 grpc::CallbackServerContext* context, const char* method)
+      : scope_(environment, context, method) {}
+
+  // Called once, by StartReactor.
+  void Enter() {
+    self_ = this->shared_from_this();
+    Guard([this] {
+      if (absl::Status status = environment().calls.Enter(this); !status.ok()) {
+        FinishOnce(status);
+      } else {
+        Begin();
+      }
+    });
+  }
+
+  void OnCancel() final {
+    scope_.RequestStop();
+    Guard([this] { Cancelled(); });
+  }
+
+  void OnDone() final {
+    environment().calls.Leave(this);
+    self_.reset();  // may delete this
+  }
+
+ protected:
+  // The call's first step.
+  virtual void Begin() = 0;
+  // The caller went away, or the deadline passed. stop() says so already.
+  virtual void Cancelled() {}
+
+  ServiceEnvironment& environment() { return scope_.environment(); }
+  Engine& engine() { return scope_.environment().engine; }
+  CallScope& scope() { return scope_; }
+  const StopToken& stop() const { return scope_.stop(); }
+
+  // The first call ends the rpc; others do nothing.
+  void FinishOnce(const absl::Status& status) {
+    if (!scope_.MarkFinished()) return;
+    // What still runs for the call is for nobody.
+    scope_.RequestStop();
+    this->Finish(scope_.Report(status));
+  }
+
+  // Runs `step`; what it throws ends the call.
+  template <typename Step>
+  void Guard(Step&& step) noexcept {
+    try {
+      step();
+    } catch (...) {
+      FinishOnce(CallScope::CurrentException());
+    }
+  }
+
+  // Runs `step` on the engine's pool, or ends the call when it is not let in.
+  void Run(WorkClass work_class, std::function<void()> step) {
+    Submit({work_class, std::move(step), /*patient=*/false});
+  }
+
+  // The same for work of a stream that was let in before: while the pool is
+  // overloaded the step waits, as long as the deadline allows. The subclass
+  // calls ResubmitWaiting from OnTick.
+  void RunPatiently(WorkClass work_class, std::function<void()> step) {
+    Submit({work_class, std::move(step), /*patient=*/true});
+  }
+
+  void ResubmitWaiting() {
+    std::vector<PoolStep> steps;
+    {
+      const std::lock_guard lock(scope_.mutex());
+      steps.swap(waiting_);
+    }
+    for (PoolStep& step : steps) Submit(std::move(step));
+  }
+
+ private:
+  struct PoolStep {
+    WorkClass work_class;
+    std::function<void()> body;
+    bool patient;
+  };
+
+  void Submit(PoolStep step) {
+    const WorkClass work_class = step.work_class;
+    engine().pool().Submit(
+        work_class, scope_.deadline(),
+        [this, self = this->shared_from_this(),
+         step = std::move(step)](const absl::Status& admission) {
+          Guard([&] { RunStep(step, admission); });
+        });
+  }
+
+  void RunStep(const PoolStep& step, const absl::Status& admission) {
+    if (const absl::Status stopped = scope_.stop().Check(); !stopped.ok()) {
+      FinishOnce(stopped);
+    } else if (admission.ok()) {
+      step.body();
+    } else if (step.patient &&
+               ReasonOf(admission) == ErrorReason::kOverloaded) {
+      const std::lock_guard lock(scope_.mutex());
+      if (!scope_.finished()) waiting_.push_back(step);
+    } else {
+      FinishOnce(admission);
+    }
+  }
+
+  CallScope scope_;
+  std::vector<PoolStep> waiting_;         // with the scope's mutex
+  std::shared_ptr<GuardedReactor> self_;  // until OnDone
+};
+
+template <typename Reactor, typename... Args>
+Reactor* StartReactor(Args&&... args) {
+  const auto reactor = std::make_shared<Reactor>(std::forward<Args>(args)...);
+  reactor->Enter();
+  return reactor.get();
+}
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_GUARDED_REACTOR_H_

@@ -1,0 +1,238 @@
+#include "server/rpc/rpc_server.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/impl/server_builder_option.h>
+#include <grpcpp/impl/server_builder_plugin.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "core/base/status_macros.h"
+#include "server/rpc/admin_service.h"
+#include "server/rpc/collection_service.h"
+#include "server/rpc/ingest_service.h"
+#include "server/rpc/listen_address.h"
+#include "server/rpc/operations_service.h"
+#include "server/rpc/search_service.h"
+#include "server/rpc/shape_service.h"
+
+namespace argmesh {
+namespace {
+
+constexpr char kSearchService[] = "argmesh.v1.SearchService";
+constexpr const char* kOtherServices[] = {
+    "argmesh.v1.CollectionService", "argmesh.v1.ShapeService",
+    "argmesh.v1.IngestService", "argmesh.v1.AdminService"};
+constexpr char kLiveness[] = "liveness";
+
+constexpr int kMillisPerSecond = 1000;
+constexpr absl::Duration kShutdownPatience = absl::Milliseconds(200);
+
+// Reflection registers itself for every server of the process as soon as it is
+// linked: a server without it takes it out again.
+class WithoutReflection final : public grpc::ServerBuilderOption {
+ public:
+  void UpdateArguments(grpc::ChannelArguments*) override {}
+  void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>*
+                         plugins) override {
+    std::erase_if(*plugins, [](const auto& plugin) {
+      return plugin->name() == "proto_server_reflection";
+    });
+  }
+};
+
+void SetChannelArguments(grpc::ServerBuilder& builder) {
+  // Two servers on one port would share its calls without a word.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  builder.SetMaxSendMessageSize(kMaxMessageBytes);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 128);
+  builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 16 << 10);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 60 * kMillisPerSecond);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS,
+                             20 * kMillisPerSecond);
+  // The default of 5 minutes cuts clients with ordinary keepalives.
+  builder.AddChannelArgument(
+      GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+      10 * kMillisPerSecond);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS,
+                             30 * 60 * kMillisPerSecond);
+  // Streams in flight outlive the connection's age by so much: an ingest of
+  // an hour must not be cut.
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS,
+                             24 * 3600 * kMillisPerSecond);
+}
+
+}  // namespace
+
+// What outlives the server in the engine's index watcher.
+class HealthBoard {
+ public:
+  void Attach(grpc::HealthCheckServiceInterface* service) {
+    const std::lock_guard lock(mutex_);
+    service_ = service;
+    Publish();
+  }
+  void Detach() {
+    const std::lock_guard lock(mutex_);
+    service_ = nullptr;
+  }
+  void SetIndexServing(bool serving) {
+    const std::lock_guard lock(mutex_);
+    index_serving_ = serving;
+    Publish();
+  }
+  void SetDraining() {
+    const std::lock_guard lock(mutex_);
+    draining_ = true;
+    Publish();
+  }
+
+ private:
+  void Publish() {
+    if (service_ == nullptr) return;
+    const bool searchable = index_serving_ && !draining_;
+    service_->SetServingStatus(kLiveness, true);
+    service_->SetServingStatus(kSearchService, searchable);
+    for (const char* name : kOtherServices) {
+      service_->SetServingStatus(name, !draining_);
+    }
+    service_->SetServingStatus("", searchable);
+  }
+
+  std::mutex mutex_;
+  grpc::HealthCheckServiceInterface* service_ = nullptr;
+  bool index_serving_ = false;
+  bool draining_ = false;
+};
+
+class RpcServer::Impl {
+ public:
+  Impl(const RpcServerOptions& options, Engine& engine, EventLog& log)
+      : environment_(engine, log, options.version, options.limits),
+        collections_(environment_),
+        shapes_(environment_),
+        ingest_(environment_),
+        search_(environment_),
+        admin_(environment_),
+        operations_(environment_) {}
+
+  ~Impl() { Shutdown(absl::Now()); }
+
+  absl::Status Listen(const RpcServerOptions& options, ListenAddress address) {
+    grpc::EnableDefaultHealthCheckService(true);
+    grpc::ServerBuilder builder;
+    SetChannelArguments(builder);
+    if (options.reflection) {
+      grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+    } else {
+      builder.SetOption(std::make_unique<WithoutReflection>());
+    }
+    int port = 0;
+    builder.AddListeningPort(address.ToString(),
+                             grpc::InsecureServerCredentials(), &port);
+    builder.RegisterService(&collections_)
+        .RegisterService(&shapes_)
+        .RegisterService(&ingest_)
+        .RegisterService(&search_)
+        .RegisterService(&admin_)
+        .RegisterService(&operations_);
+    server_ = builder.BuildAndStart();
+    if (server_ == nullptr || port == 0) {
+      return absl::UnavailableError(absl::StrFormat(
+          "cannot listen on %s: in use, or not an address of this machine",
+          address.ToString()));
+    }
+    address.port = port;
+    port_ = port;
+    address_ = address.ToString();
+    health_->Attach(server_->GetHealthCheckService());
+    environment_.engine.WatchIndexState([board = health_](IndexState state) {
+      board->SetIndexServing(state == IndexState::kServing);
+    });
+    return absl::OkStatus();
+  }
+
+  bool Shutdown(absl::Time deadline) {
+    const std::lock_guard lock(shutdown_mutex_);
+    if (server_ == nullptr) return clean_;
+    health_->SetDraining();
+    const absl::Time now = absl::Now();
+    environment_.calls.StartDrain(
+        std::max(absl::ZeroDuration(), deadline - now));
+    clean_ = environment_.calls.WaitUntilIdle(deadline);
+    health_->Detach();
+    // Of ours nothing is left, or it is late; only health watches still run.
+    server_->Shutdown(absl::ToChronoTime(absl::Now() + kShutdownPatience));
+    server_->Wait();
+    // gRPC's own part is done; tasks on the pool may still end their calls.
+    environment_.calls.WaitUntilIdle(absl::InfiniteFuture());
+    server_.reset();
+    return clean_;
+  }
+
+  void StopAdvertising() { health_->SetDraining(); }
+  const std::string& address() const { return address_; }
+  int port() const { return port_; }
+  std::shared_ptr<grpc::Channel> InProcessChannel() {
+    return server_->InProcessChannel(grpc::ChannelArguments());
+  }
+
+ private:
+  ServiceEnvironment environment_;
+  CollectionServiceImpl collections_;
+  ShapeServiceImpl shapes_;
+  IngestServiceImpl ingest_;
+  SearchServiceImpl search_;
+  AdminServiceImpl admin_;
+  OperationsServiceImpl operations_;
+  const std::shared_ptr<HealthBoard> health_ = std::make_shared<HealthBoard>();
+  std::mutex shutdown_mutex_;
+  bool clean_ = true;
+  std::string address_;
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+absl::Status CheckListenAddress(const RpcServerOptions& options) {
+  ARGMESH_ASSIGN_OR_RETURN(const ListenAddress address,
+                           ParseListenAddress(options.listen));
+  if (address.loopback || options.insecure_remote) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "refusing to listen on %s: it can be reached from other machines, and "
+      "this version neither encrypts nor authenticates. Listen on 127.0.0.1 "
+      "behind a proxy that does, or pass --insecure-remote",
+      options.listen));
+}
+
+absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(
+    const RpcServerOptions& options, Engine& engine, EventLog& log) {
+  ARGMESH_RETURN_IF_ERROR(CheckListenAddress(options));
+  ARGMESH_ASSIGN_OR_RETURN(ListenAddress address,
+                           ParseListenAddress(options.listen));
+  auto impl = std::make_unique<Impl>(options, engine, log);
+  ARGMESH_RETURN_IF_ERROR(impl->Listen(options, std::move(address)));
+  return std::unique_ptr<RpcServer>(new RpcServer(std::move(impl)));
+}
+
+RpcServer::RpcServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RpcServer::~RpcServer() = default;
+
+const std::string& RpcServer::address() const { return impl_->address(); }
+int RpcServer::port() const { return impl_->port(); }
+std::shared_ptr<grpc::Channel> RpcServer::InProcessChannel() {
+  return impl_->InProcessChannel();
+}
+void RpcServer::StopAdvertising() { impl_->StopAdvertising(); }
+bool RpcServer::Shutdown(absl::Time deadline) {
+  return impl_->Shutdown(deadline);
+}
+
+}  // namespace argmesh

@@ -1,0 +1,73 @@
+// The gRPC server: every service of argmesh.v1, health and reflection over one
+// listening address.
+//
+// Health   SearchService and "" are SERVING while the engine's index serves,
+//          the other services from the start; "liveness" as long as the
+//          process lives. All but "liveness" are NOT_SERVING from StartDrain.
+// Fails    kInvalidArgument  the address is malformed, or not loopback without
+//                            `insecure_remote`
+//          kUnavailable      the address cannot be bound
+// Thread-safe.
+#ifndef ARGMESH_SERVER_RPC_RPC_SERVER_H_
+#define ARGMESH_SERVER_RPC_RPC_SERVER_H_
+
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "server/engine/engine.h"
+#include "server/rpc/event_log.h"
+#include "server/rpc/service_environment.h"
+
+namespace grpc {
+class Channel;
+}
+
+namespace argmesh {
+
+struct RpcServerOptions {
+  // HOST:PORT, [IPV6]:PORT; port 0 takes a free one.
+  std::string listen = "127.0.0.1:7411";
+  // Bind other than loopback although nothing is encrypted or authenticated.
+  bool insecure_remote = false;
+  bool reflection = true;
+  std::string version;
+  ServiceLimits limits;
+};
+
+// OK when the server may bind `options.listen`.
+absl::Status CheckListenAddress(const RpcServerOptions& options);
+
+class RpcServer {
+ public:
+  // `engine` and `log` must outlive the server.
+  static absl::StatusOr<std::unique_ptr<RpcServer>> Start(
+      const RpcServerOptions& options, Engine& engine, EventLog& log);
+  ~RpcServer();  // Shutdown at once
+
+  // HOST:PORT with the bound port.
+  const std::string& address() const;
+  int port() const;
+
+  // A channel to this server that needs no socket.
+  std::shared_ptr<grpc::Channel> InProcessChannel();
+
+  // NOT_SERVING; calls still come in.
+  void StopAdvertising();
+
+  // New calls are refused with DRAINING, those in flight may finish until
+  // `deadline` and are then cancelled. Returns when gRPC is done; true when no
+  // call was cut off. The first call decides.
+  bool Shutdown(absl::Time deadline);
+
+ private:
+  class Impl;
+  explicit RpcServer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_RPC_SERVER_H_

@@ -1,0 +1,57 @@
+// What every service of one server shares.
+#ifndef ARGMESH_SERVER_RPC_SERVICE_ENVIRONMENT_H_
+#define ARGMESH_SERVER_RPC_SERVICE_ENVIRONMENT_H_
+
+#include <cstdint>
+#include <string>
+
+#include "absl/time/time.h"
+#include "server/engine/engine.h"
+#include "server/engine/request_rules.h"
+#include "server/rpc/admission.h"
+#include "server/rpc/call_registry.h"
+#include "server/rpc/event_log.h"
+
+namespace argmesh {
+
+// Of one message, both ways; and of what the server puts into one.
+inline constexpr int kMaxMessageBytes = 4 << 20;
+inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
+
+inline constexpr int kMaxPageSize = 1000;
+
+struct ServiceLimits {
+  int max_inflight_searches = 64;  // >= 1; also comparisons
+  int max_inflight_uploads = 32;   // >= 1; CreateShape and UploadShape
+  int max_inflight_ingests = 8;    // >= 1; streams
+  // A stream whose peer sends or takes nothing for so long ends; > 0.
+  absl::Duration stream_idle_timeout = absl::Seconds(60);
+  // What an ingest stream may have under way; each >= 1.
+  int ingest_credit_items = 16;
+  int64_t ingest_credit_bytes = 64 << 20;
+};
+
+struct ServiceEnvironment {
+  ServiceEnvironment(Engine& the_engine, EventLog& the_log,
+                     std::string the_version, const ServiceLimits& the_limits)
+      : engine(the_engine),
+        log(the_log),
+        version(std::move(the_version)),
+        limits(the_limits),
+        searches("searches", the_limits.max_inflight_searches),
+        uploads("uploads", the_limits.max_inflight_uploads),
+        ingests("ingest streams", the_limits.max_inflight_ingests) {}
+
+  Engine& engine;
+  EventLog& log;
+  const std::string version;
+  const ServiceLimits limits;
+  Admission searches;
+  Admission uploads;
+  Admission ingests;
+  CallRegistry calls;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_SERVICE_ENVIRONMENT_H_

@@ -1,0 +1,147 @@
+#include "server/rpc/shape_service.h"
+
+#include <string>
+#include <utility>
+
+#include "core/base/status_macros.h"
+#include "server/engine/error_reason.h"
+#include "server/rpc/convert_shape.h"
+#include "server/rpc/convert_upload.h"
+#include "server/rpc/download_reactor.h"
+#include "server/rpc/graph_answer.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/shape_answer.h"
+#include "server/rpc/unary_reactor.h"
+#include "server/rpc/upload_reactor.h"
+
+namespace argmesh {
+namespace {
+
+absl::Status List(const Engine& engine, const v1::ListShapesRequest& request,
+                  v1::ListShapesResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::string collection,
+                           ParseCollectionName("parent", request.parent()));
+  if (!request.filter().empty()) {
+    return MakeError(ErrorReason::kFilterInvalid,
+                     "filter: not served by this version; leave it empty",
+                     {{"field", "filter"}});
+  }
+  ARGMESH_ASSIGN_OR_RETURN(
+      const ShapePage page,
+      engine.ListShapes(collection, {.page_size = request.page_size(),
+                                     .page_token = request.page_token(),
+                                     .max_bytes = kMaxAnswerBytes}));
+  for (const ShapeRecord& record : page.shapes) {
+    *response->add_shapes() = ToProto(record);
+  }
+  response->set_next_page_token(page.next_page_token);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::CreateShape(
+    grpc::CallbackServerContext* context, const v1::CreateShapeRequest* request,
+    v1::Shape* response) {
+  return UnaryReactor::Start(
+      environment_, context,
+      {"ShapeService.CreateShape", WorkClass::kCompute, &environment_.uploads},
+      [this, request, response](const StopToken& stop) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const NewShape shape, FromProto(*request));
+        ARGMESH_ASSIGN_OR_RETURN(
+            const AddedShape added,
+            environment_.engine.AddShape(shape, request->mesh().data(), stop));
+        *response = AnswerWithGraph(environment_.engine, added.record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerReadReactor<v1::UploadShapeRequest>* ShapeServiceImpl::UploadShape(
+    grpc::CallbackServerContext* context, v1::Shape* response) {
+  return StartReactor<UploadReactor>(environment_, context, response);
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
+    grpc::CallbackServerContext* context, const v1::GetShapeRequest* request,
+    v1::Shape* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"ShapeService.GetShape"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
+                                 ParseShapeName("name", request->name()));
+        ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
+                                 environment_.engine.GetShape(shape));
+        *response = AnswerWithGraph(environment_.engine, record);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::ListShapes(
+    grpc::CallbackServerContext* context, const v1::ListShapesRequest* request,
+    v1::ListShapesResponse* response) {
+  return UnaryReactor::Start(environment_, context, {"ShapeService.ListShapes"},
+                             [this, request, response](const StopToken&) {
+                               return List(environment_.engine, *request,
+                                           response);
+                             });
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::UpdateShape(
+    grpc::CallbackServerContext* context, const v1::UpdateShapeRequest*,
+    v1::Shape*) {
+  return UnaryReactor::NotServed(environment_, context,
+                                 "ShapeService.UpdateShape");
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
+    grpc::CallbackServerContext* context, const v1::DeleteShapeRequest* request,
+    v1::DeleteShapeResponse* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"ShapeService.DeleteShape"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        ShapeRemoval removal;
+        ARGMESH_ASSIGN_OR_RETURN(removal.shape,
+                                 ParseShapeName("name", request->name()));
+        removal.etag = request->etag();
+        removal.request.request_id = request->request_id();
+        ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
+                                 environment_.engine.DeleteShape(removal));
+        response->set_generation(generation);
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
+    grpc::CallbackServerContext* context, const v1::BatchGetShapesRequest*,
+    v1::BatchGetShapesResponse*) {
+  return UnaryReactor::NotServed(environment_, context,
+                                 "ShapeService.BatchGetShapes");
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(
+    grpc::CallbackServerContext* context, const v1::BatchDeleteShapesRequest*,
+    v1::BatchDeleteShapesResponse*) {
+  return UnaryReactor::NotServed(environment_, context,
+                                 "ShapeService.BatchDeleteShapes");
+}
+
+grpc::ServerWriteReactor<v1::DownloadMeshResponse>*
+ShapeServiceImpl::DownloadMesh(grpc::CallbackServerContext* context,
+                               const v1::DownloadMeshRequest* request) {
+  return StartReactor<DownloadReactor>(environment_, context, request);
+}
+
+grpc::ServerUnaryReactor* ShapeServiceImpl::GetShapeGraph(
+    grpc::CallbackServerContext* context,
+    const v1::GetShapeGraphRequest* request,
+    v1::GetShapeGraphResponse* response) {
+  return UnaryReactor::Start(
+      environment_, context, {"ShapeService.GetShapeGraph"},
+      [this, request, response](const StopToken&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(*response,
+                                 AnswerGraph(environment_.engine, *request));
+        return absl::OkStatus();
+      });
+}
+
+}  // namespace argmesh

@@ -1,0 +1,45 @@
+#include "server/rpc/unary_reactor.h"
+
+#include "core/base/status_macros.h"
+#include "server/rpc/status.h"
+
+namespace argmesh {
+
+grpc::ServerUnaryReactor* UnaryReactor::Start(
+    ServiceEnvironment& environment, grpc::CallbackServerContext* context,
+    const UnaryPlan& plan, Body body) {
+  return StartReactor<UnaryReactor>(environment, context, plan,
+                                    std::move(body));
+}
+
+grpc::ServerUnaryReactor* UnaryReactor::NotServed(
+    ServiceEnvironment& environment, grpc::CallbackServerContext* context,
+    const char* method) {
+  return StartReactor<UnaryReactor>(environment, context, UnaryPlan{method},
+                                    Body());
+}
+
+UnaryReactor::UnaryReactor(ServiceEnvironment& environment,
+                           grpc::CallbackServerContext* context,
+                           const UnaryPlan& plan, Body body)
+    : GuardedReactor(environment, context, plan.method),
+      plan_(plan),
+      body_(std::move(body)) {}
+
+void UnaryReactor::Begin() {
+  if (!body_) {
+    FinishOnce(MethodNotServed(plan_.method));
+    return;
+  }
+  if (plan_.admission != nullptr) {
+    absl::StatusOr<Admission::Ticket> ticket = plan_.admission->Admit();
+    if (!ticket.ok()) {
+      FinishOnce(ticket.status());
+      return;
+    }
+    ticket_ = std::move(*ticket);
+  }
+  Run(plan_.work_class, [this] { FinishOnce(body_(stop())); });
+}
+
+}  // namespace argmesh
