@@ -1,0 +1,177 @@
+// Writes changed copies of a labelled folder, with a labels.tsv and a
+// queries.tsv (path, class, source) for `argmesh evaluate --queries`.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/status_macros.h"
+#include "core/geometry/area.h"
+#include "core/mesh/mesh_format.h"
+#include "core/mesh/mesh_repair.h"
+#include "core/mesh/mesh_resample.h"
+#include "core/mesh/mesh_write.h"
+#include "core/synthesis/mesh_cut.h"
+#include "core/synthesis/mesh_decimate.h"
+#include "core/synthesis/mesh_noise.h"
+#include "core/synthesis/mesh_similarity.h"
+#include "tests/benchmark/hand_made_parts.h"
+#include "tests/benchmark/labelled_collection.h"
+
+namespace argmesh {
+namespace {
+
+struct Options {
+  std::string in, out;
+  int every = 1;
+  int resample = 0;
+  double noise = 0;
+  double decimate = 0;
+  int half_axis = -1;
+  bool similarity = false;
+  bool parts = false;
+  double min_part_area = 0.02;  // share of the shape
+};
+
+struct Variant {
+  std::string path;  // relative
+  std::string label;
+  std::string source;
+  TriangleMesh mesh;
+};
+
+absl::StatusOr<TriangleMesh> Change(TriangleMesh mesh, const Options& options,
+                                    uint64_t seed) {
+  if (options.resample > 0) {
+    ARGMESH_ASSIGN_OR_RETURN(const RepairedMesh repaired, RepairMesh(mesh));
+    ResampleOptions resample;
+    resample.vertex_budget = options.resample;
+    ARGMESH_ASSIGN_OR_RETURN(ResampledMesh resampled,
+                             ResampleMesh(repaired.mesh, resample));
+    mesh = std::move(resampled.mesh);
+  }
+  if (options.noise > 0) mesh = AddNoise(mesh, options.noise, seed);
+  if (options.decimate > 0) {
+    mesh = DecimateMesh(
+        mesh, static_cast<int>(options.decimate * mesh.num_vertices()));
+  }
+  if (options.half_axis >= 0) mesh = CutHalf(mesh, options.half_axis);
+  if (options.similarity) mesh = RandomSimilarity(mesh, seed);
+  return mesh;
+}
+
+// Faces of the largest connected piece of each named part.
+std::vector<Variant> CutParts(const LabelledMesh& item,
+                              const TriangleMesh& mesh,
+                              const HandMadeParts& parts, double min_area) {
+  const std::vector<int32_t> pieces = ConnectedParts(mesh, parts.part_of_face);
+  const Eigen::VectorXd areas = ComputeFaceAreas(mesh);
+  std::vector<Variant> variants;
+  for (size_t p = 0; p < parts.names.size(); ++p) {
+    std::vector<double> piece_area(pieces.size(), 0);
+    for (size_t f = 0; f < pieces.size(); ++f) {
+      if (parts.part_of_face[f] != static_cast<int32_t>(p)) continue;
+      piece_area[static_cast<size_t>(pieces[f])] +=
+          areas[static_cast<Eigen::Index>(f)];
+    }
+    const auto largest = std::max_element(piece_area.begin(), piece_area.end());
+    if (largest == piece_area.end() || *largest < min_area * areas.sum()) {
+      continue;
+    }
+    const auto root = static_cast<int32_t>(largest - piece_area.begin());
+    std::vector<Eigen::Index> kept;
+    for (size_t f = 0; f < pieces.size(); ++f) {
+      if (pieces[f] == root) kept.push_back(static_cast<Eigen::Index>(f));
+    }
+    Variant variant;
+    const std::filesystem::path path(item.path);
+    variant.path = (path.parent_path() / path.stem()).string() + "_" +
+                   std::to_string(p) + ".off";
+    variant.label = item.label;
+    variant.source = item.path;
+    variant.mesh.V = mesh.V;
+    variant.mesh.F = mesh.F(kept, Eigen::all);
+    RemoveUnusedVertices(variant.mesh);
+    variants.push_back(std::move(variant));
+  }
+  return variants;
+}
+
+absl::StatusOr<std::vector<Variant>> MakeVariants(const LabelledMesh& item,
+                                                  const Options& options) {
+  const std::filesystem::path path =
+      std::filesystem::path(options.in) / item.path;
+  ARGMESH_ASSIGN_OR_RETURN(TriangleMesh mesh, ReadMesh(path));
+  std::vector<Variant> variants;
+  if (options.parts) {
+    ARGMESH_ASSIGN_OR_RETURN(const HandMadeParts parts,
+                             ReadHandMadeParts(path, mesh.num_faces()));
+    variants = CutParts(item, mesh, parts, options.min_part_area);
+  } else {
+    variants.push_back({item.path, item.label, item.path, std::move(mesh)});
+  }
+  uint64_t seed = std::hash<std::string>{}(item.path);
+  for (Variant& variant : variants) {
+    ARGMESH_ASSIGN_OR_RETURN(variant.mesh,
+                             Change(std::move(variant.mesh), options, seed++));
+  }
+  return variants;
+}
+
+absl::Status Write(const Variant& variant, const Options& options,
+                   std::ofstream& labels, std::ofstream& queries) {
+  const std::filesystem::path path =
+      std::filesystem::path(options.out) / variant.path;
+  std::filesystem::create_directories(path.parent_path());
+  ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
+                           SerializeMesh(variant.mesh, MeshFormat::kOff));
+  std::ofstream(path, std::ios::binary) << bytes;
+  labels << variant.path << '\t' << variant.label << '\n';
+  queries << variant.path << '\t' << variant.label << '\t' << variant.source
+          << '\n';
+  return absl::OkStatus();
+}
+
+absl::Status Run(const Options& options) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<LabelledMesh> items,
+                           ReadLabels(options.in));
+  std::filesystem::create_directories(options.out);
+  const std::filesystem::path out(options.out);
+  std::ofstream labels(out / "labels.tsv");
+  std::ofstream queries(out / "queries.tsv");
+  for (size_t i = 0; i < items.size();
+       i += static_cast<size_t>(options.every)) {
+    ARGMESH_ASSIGN_OR_RETURN(const std::vector<Variant> variants,
+                             MakeVariants(items[i], options));
+    for (const Variant& variant : variants) {
+      ARGMESH_RETURN_IF_ERROR(Write(variant, options, labels, queries));
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+}  // namespace argmesh
+
+int main(int argc, char** argv) {
+  argmesh::Options options;
+  CLI::App app("Changed copies of a labelled folder");
+  app.add_option("in", options.in, "Meshes with a labels.tsv")->required();
+  app.add_option("out", options.out, "Folder to write")->required();
+  app.add_option("--every", options.every, "Every n-th mesh only");
+  app.add_option("--resample", options.resample, "Vertices of every copy");
+  app.add_option("--noise", options.noise, "Share of the box diagonal");
+  app.add_option("--decimate", options.decimate, "Share of vertices kept");
+  app.add_option("--half", options.half_axis, "Cut in half on axis 0, 1, 2");
+  app.add_flag("--similarity", options.similarity,
+               "Random rotation, scale, translation and numbering");
+  app.add_flag("--parts", options.parts, "Hand-made parts, one file each");
+  app.add_option("--min-part-area", options.min_part_area);
+  CLI11_PARSE(app, argc, argv);
+  const absl::Status status = argmesh::Run(options);
+  if (!status.ok()) std::printf("%s\n", status.ToString().c_str());
+  return status.ok() ? 0 : 1;
+}
