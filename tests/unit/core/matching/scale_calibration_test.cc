@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/matching/frozen_scales.h"
@@ -67,11 +69,20 @@ TEST(ComputeFrozenScales, NeedsTwoGraphs) {
 }
 
 TEST(FormatFrozenScales, PrintsEveryNumber) {
-  const std::string text = FormatFrozenScales(DefaultFrozenScales());
-  EXPECT_THAT(text, HasSubstr("0.23350F, 1.02390F"));
-  EXPECT_THAT(text, HasSubstr("{1.18660F, "));
-  EXPECT_EQ(std::count(text.begin(), text.end(), 'F') - 2,  // two in the names
-            static_cast<long>(kAttributeDims + 3 * kNumAttributeGroups));
+  FrozenScales scales;
+  scales.deviation.fill(1);
+  scales.deviation[0] = 0.25F;
+  scales.component.fill(2);
+  scales.component[0] = 3;
+  scales.uniform.fill(4);
+  scales.partial.fill(5);
+  const std::string text = FormatFrozenScales(scales);
+  EXPECT_THAT(text, HasSubstr("{0.25000F, 1.00000F"));
+  EXPECT_THAT(text, HasSubstr("{3.00000F, 2.00000F"));
+  EXPECT_THAT(text, HasSubstr("5.00000F},\n};"));
+  EXPECT_EQ(
+      std::count(text.begin(), text.end(), '.'),
+      static_cast<std::ptrdiff_t>(kAttributeDims + 3 * kNumAttributeGroups));
 }
 
 }  // namespace
