@@ -27,10 +27,8 @@ absl::Status ParseError(const absl::Status& status, MeshFormat format) {
     return MakeError(ErrorReason::kMeshTooLarge, message);
   }
   if (!absl::IsInvalidArgument(status)) return status;
-  // Without a format asked for, a parser's name in the message says that one
-  // was recognised.
   if (format == MeshFormat::kUnknown &&
-      message.find("format") != std::string::npos) {
+      message.find("begins no") != std::string::npos) {
     return MakeError(ErrorReason::kMeshFormatUnknown, message);
   }
   ErrorMetadata where;

@@ -33,13 +33,14 @@ struct SearchQuery {
   // A ShapeRef may be of another collection with equal settings.
   QueryShape query;
   MatchMode mode = MatchMode::kGlobal;
-  int limit = 10;                 // 1 .. 1000
-  double min_score = 0;           // 0 .. 1
-  double min_query_coverage = 0;  // 0 .. 1
-  bool exclude_query = false;     // leave a stored query out of its answer
-  bool correspondence = true;     // fill MatchResult::pairs
-  bool query_graph = false;       // fill SearchAnswer::query_graph
-  int64_t min_generation = 0;     // refuse to answer from an older state
+  AttributeSet attributes = AttributeSet::kFull;  // kGlobal only
+  int limit = 10;                                 // 1 .. 1000
+  double min_score = 0;                           // 0 .. 1
+  double min_query_coverage = 0;                  // 0 .. 1
+  bool exclude_query = false;  // leave a stored query out of its answer
+  bool correspondence = true;  // fill MatchResult::pairs
+  bool query_graph = false;    // fill SearchAnswer::query_graph
+  int64_t min_generation = 0;  // refuse to answer from an older state
 };
 
 struct SearchMatch {
@@ -75,6 +76,7 @@ struct CompareQuery {
   QueryShape a;
   QueryShape b;
   MatchMode mode = MatchMode::kGlobal;
+  AttributeSet attributes = AttributeSet::kFull;  // kGlobal only
   std::string collection;  // whose settings turn meshes into graphs
   bool graphs = false;     // fill ComparedShapes::a and b
 };

@@ -31,6 +31,12 @@ class ExactRanker : public ShapeRanker {
                                const RankQuery& query,
                                const StopToken& stop) const override {
     const size_t limit = static_cast<size_t>(query.limit);
+    MatchOptions options;
+    options.attributes = query.attributes;
+    options.all_level_scores = false;
+    // The coverage of a global match comes with its correspondence.
+    options.correspondence =
+        query.mode == MatchMode::kGlobal && query.min_query_coverage > 0;
     std::vector<std::vector<RankedShape>> best(gallery.blocks.size());
     std::atomic<int64_t> matched{0};
     std::atomic<bool> stopped{false};
@@ -45,7 +51,7 @@ class ExactRanker : public ShapeRanker {
               return;
             }
             const MatchResult match =
-                MatchGraphs(query.mode, query.graph, entry->graph, false);
+                MatchGraphs(query.mode, query.graph, entry->graph, options);
             ++matched;
             if (match.score >= query.min_score &&
                 match.query_coverage >= query.min_query_coverage) {
@@ -73,9 +79,8 @@ class ExactRanker : public ShapeRanker {
 }  // namespace
 
 MatchResult MatchGraphs(MatchMode mode, const MatchableGraph& query,
-                        const MatchableGraph& target, bool correspondence) {
-  MatchOptions options;
-  options.correspondence = correspondence;
+                        const MatchableGraph& target,
+                        const MatchOptions& options) {
   return mode == MatchMode::kGlobal ? MatchGlobal(query, target, options)
                                     : MatchPartial(query, target, options);
 }

@@ -22,6 +22,7 @@ namespace argmesh {
 struct RankQuery {
   const MatchableGraph& graph;
   MatchMode mode = MatchMode::kGlobal;
+  AttributeSet attributes = AttributeSet::kFull;
   int limit = 10;
   double min_score = 0;
   double min_query_coverage = 0;
@@ -52,7 +53,8 @@ class ShapeRanker {
 std::unique_ptr<ShapeRanker> MakeExactRanker(ComputePool& pool);
 
 MatchResult MatchGraphs(MatchMode mode, const MatchableGraph& query,
-                        const MatchableGraph& target, bool correspondence);
+                        const MatchableGraph& target,
+                        const MatchOptions& options);
 
 }  // namespace argmesh
 

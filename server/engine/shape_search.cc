@@ -110,8 +110,9 @@ void ShapeSearch::FillMatches(const SearchQuery& query,
         const auto at = static_cast<size_t>(i);
         const GalleryEntry& entry = *ranking.shapes[at].entry;
         matches[at].shape = entry.record;
-        matches[at].match =
-            MatchGraphs(query.mode, graph, entry.graph, query.correspondence);
+        matches[at].match = MatchGraphs(query.mode, graph, entry.graph,
+                                        {.attributes = query.attributes});
+        if (!query.correspondence) matches[at].match.pairs.clear();
       });
 }
 
@@ -128,6 +129,7 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   const MatchableGraph graph(resolved.graph);
   RankQuery rank{.graph = graph,
                  .mode = query.mode,
+                 .attributes = query.attributes,
                  .limit = query.limit,
                  .min_score = query.min_score,
                  .min_query_coverage = query.min_query_coverage,
@@ -168,8 +170,9 @@ absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
                            Resolve(query.b, collection.settings, stop));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   ComparedShapes compared;
-  compared.match = MatchGraphs(query.mode, MatchableGraph(a.graph),
-                               MatchableGraph(b.graph), true);
+  compared.match =
+      MatchGraphs(query.mode, MatchableGraph(a.graph), MatchableGraph(b.graph),
+                  {.attributes = query.attributes});
   if (query.graphs) {
     compared.a = std::move(a);
     compared.b = std::move(b);

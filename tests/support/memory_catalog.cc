@@ -1,0 +1,367 @@
+#include "tests/support/memory_catalog.h"
+
+#include <algorithm>
+
+#include "absl/time/clock.h"
+#include "core/base/status_macros.h"
+#include "server/engine/catalog_errors.h"
+#include "server/engine/error_reason.h"
+#include "server/engine/record_codec.h"
+
+namespace argmesh {
+
+absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
+    std::string_view id) {
+  if (closed_) return CatalogClosedError();
+  const auto it = collections_.find(id);
+  if (it == collections_.end()) return CollectionNotFoundError(id);
+  return &it->second;
+}
+
+absl::StatusOr<const MemoryCatalog::Collection*> MemoryCatalog::Find(
+    std::string_view id) const {
+  if (closed_) return CatalogClosedError();
+  const auto it = collections_.find(id);
+  if (it == collections_.end()) return CollectionNotFoundError(id);
+  return &it->second;
+}
+
+const MemoryCatalog::Collection* MemoryCatalog::FindUid(
+    std::string_view uid) const {
+  for (const auto& [id, collection] : collections_) {
+    if (collection.record.uid == uid) return &collection;
+  }
+  return nullptr;
+}
+
+absl::StatusOr<std::optional<std::string>> MemoryCatalog::Recall(
+    const RequestStamp& request) const {
+  if (request.request_id.empty()) return std::nullopt;
+  const auto it = answers_.find({request.principal, request.request_id});
+  if (it == answers_.end() || it->second.request.expire_time <= absl::Now()) {
+    return std::nullopt;
+  }
+  if (it->second.request.method != request.method ||
+      it->second.request.hash != request.hash) {
+    return RequestIdReusedError(request.request_id);
+  }
+  return it->second.bytes;
+}
+
+void MemoryCatalog::Remember(const RequestStamp& request, std::string answer) {
+  if (request.request_id.empty()) return;
+  answers_[{request.principal, request.request_id}] = {request,
+                                                       std::move(answer)};
+}
+
+int64_t MemoryCatalog::LogChange(Collection& collection, const std::string& id,
+                                 ShapeChange::Kind kind) {
+  const int64_t generation = ++collection.record.generation;
+  collection.changes.push_back({generation, id, kind});
+  return generation;
+}
+
+bool MemoryCatalog::IsReferenced(const Sha256Digest& sha256) const {
+  for (const auto& [id, collection] : collections_) {
+    for (const auto& [name, shape] : collection.shapes) {
+      if (shape.record.mesh_stored && shape.record.sha256 == sha256) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::vector<Sha256Digest> MemoryCatalog::Unreferenced(
+    const ShapeRecord& gone) const {
+  if (!gone.mesh_stored || IsReferenced(gone.sha256)) return {};
+  return {gone.sha256};
+}
+
+ScannedGraph MemoryCatalog::Scan(const Shape& shape) {
+  ScannedGraph scanned;
+  scanned.record = shape.record;
+  scanned.graph_version = shape.graph_version;
+  if (shape.damaged) {
+    scanned.status =
+        MakeError(ErrorReason::kStoredDataDamaged, "the graph is damaged");
+  } else {
+    scanned.graph = shape.graph;
+  }
+  return scanned;
+}
+
+absl::StatusOr<CollectionRecord> MemoryCatalog::InsertCollection(
+    const CollectionRecord& record, const RequestStamp& request) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           Recall(request));
+  if (answer) return ParseCollectionRecord(*answer);
+  if (collections_.contains(record.id)) return CollectionExistsError(record.id);
+  collections_[record.id].record = record;
+  Remember(request, SerializeCollectionRecord(record));
+  return record;
+}
+
+absl::StatusOr<CollectionRecord> MemoryCatalog::UpdateCollection(
+    const CollectionPatch& patch) {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.id));
+  CollectionRecord& record = collection->record;
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(record)));
+  if (patch.display_name) record.display_name = *patch.display_name;
+  record.update_time = patch.update_time;
+  ++record.revision;
+  return record;
+}
+
+absl::StatusOr<CollectionDeleted> MemoryCatalog::DeleteCollection(
+    const CollectionDelete& removal) {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(const Collection* collection, Find(removal.id));
+  ARGMESH_RETURN_IF_ERROR(
+      CheckEtag(removal.etag, CollectionEtag(collection->record)));
+  if (!collection->shapes.empty() && !removal.force) {
+    return CollectionNotEmptyError(removal.id);
+  }
+  CollectionDeleted deleted;
+  deleted.uid = collection->record.uid;
+  const Collection gone = *collection;
+  collections_.erase(removal.id);
+  for (const auto& [id, shape] : gone.shapes) {
+    for (const Sha256Digest& sha256 : Unreferenced(shape.record)) {
+      deleted.unreferenced.push_back(sha256);
+    }
+  }
+  std::sort(deleted.unreferenced.begin(), deleted.unreferenced.end());
+  deleted.unreferenced.erase(
+      std::unique(deleted.unreferenced.begin(), deleted.unreferenced.end()),
+      deleted.unreferenced.end());
+  return deleted;
+}
+
+absl::StatusOr<CollectionRecord> MemoryCatalog::GetCollection(
+    std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(const Collection* collection, Find(id));
+  return collection->record;
+}
+
+absl::StatusOr<std::vector<CollectionRecord>> MemoryCatalog::ListCollections(
+    std::string_view after_id, int limit) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  std::vector<CollectionRecord> records;
+  for (auto it = collections_.upper_bound(after_id);
+       it != collections_.end() && static_cast<int>(records.size()) < limit;
+       ++it) {
+    records.push_back(it->second.record);
+  }
+  return records;
+}
+
+void MemoryCatalog::FailNextPut(absl::Status error) {
+  const std::lock_guard lock(mutex_);
+  next_put_ = std::move(error);
+}
+
+absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  ARGMESH_RETURN_IF_ERROR(std::exchange(next_put_, absl::OkStatus()));
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           Recall(put.request));
+  if (answer) {
+    ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(*answer));
+    first.written = false;
+    return first;
+  }
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection,
+                           Find(put.record.collection));
+  if (collection->record.uid != put.collection_uid) {
+    return CollectionNotFoundError(put.record.collection);
+  }
+  std::optional<ShapeRecord> replaced;
+  if (const auto it = collection->shapes.find(put.record.id);
+      it != collection->shapes.end()) {
+    replaced = it->second.record;
+    ARGMESH_RETURN_IF_ERROR(CheckEtag(put.etag, ShapeEtag(*replaced)));
+    if (put.if_exists == IfExists::kReturnSame &&
+        replaced->sha256 == put.record.sha256) {
+      return ShapeWritten{*replaced, put.collection_uid, false, {}};
+    }
+    if (put.if_exists != IfExists::kReplace) {
+      return ShapeExistsError(put.record.collection, put.record.id);
+    }
+  } else if (!put.etag.empty()) {
+    return ShapeNotFoundError(put.record.collection, put.record.id);
+  }
+  ShapeWritten written{put.record, put.collection_uid, true, {}};
+  if (replaced) {
+    written.record.uid = replaced->uid;
+    written.record.create_time = replaced->create_time;
+  }
+  collection->record.shape_count += replaced ? 0 : 1;
+  written.record.generation =
+      LogChange(*collection, put.record.id, ShapeChange::Kind::kPut);
+  collection->shapes[put.record.id] = {written.record, put.graph_version,
+                                       put.graph, put.labels, false};
+  if (replaced) written.unreferenced = Unreferenced(*replaced);
+  Remember(put.request, SerializeShapeWritten(written));
+  return written;
+}
+
+absl::StatusOr<ShapeWritten> MemoryCatalog::UpdateShape(
+    const ShapePatch& patch) {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.collection));
+  const auto it = collection->shapes.find(patch.id);
+  if (it == collection->shapes.end()) {
+    return ShapeNotFoundError(patch.collection, patch.id);
+  }
+  ShapeRecord& record = it->second.record;
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
+  if (patch.display_name) record.display_name = *patch.display_name;
+  if (patch.source_uri) record.source_uri = *patch.source_uri;
+  if (patch.metadata) record.metadata = *patch.metadata;
+  record.update_time = patch.update_time;
+  record.generation = LogChange(*collection, patch.id, ShapeChange::Kind::kPut);
+  return ShapeWritten{record, collection->record.uid, true, {}};
+}
+
+absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
+    const ShapeDelete& removal) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           Recall(removal.request));
+  if (answer) return ParseShapeDeleted(*answer);
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(removal.collection));
+  const auto it = collection->shapes.find(removal.id);
+  if (it == collection->shapes.end()) {
+    return ShapeNotFoundError(removal.collection, removal.id);
+  }
+  const ShapeRecord gone = it->second.record;
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, ShapeEtag(gone)));
+  collection->shapes.erase(it);
+  --collection->record.shape_count;
+  ShapeDeleted deleted;
+  deleted.collection_uid = collection->record.uid;
+  deleted.generation =
+      LogChange(*collection, removal.id, ShapeChange::Kind::kDelete);
+  deleted.unreferenced = Unreferenced(gone);
+  Remember(removal.request, SerializeShapeDeleted(deleted));
+  return deleted;
+}
+
+absl::StatusOr<ShapeRecord> MemoryCatalog::GetShape(std::string_view collection,
+                                                    std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
+  const auto it = found->shapes.find(id);
+  if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
+  return it->second.record;
+}
+
+absl::StatusOr<std::vector<ShapeRecord>> MemoryCatalog::ListShapes(
+    std::string_view collection, std::string_view after_id, int limit) const {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
+  std::vector<ShapeRecord> records;
+  for (auto it = found->shapes.upper_bound(after_id);
+       it != found->shapes.end() && static_cast<int>(records.size()) < limit;
+       ++it) {
+    records.push_back(it->second.record);
+  }
+  return records;
+}
+
+void MemoryCatalog::DamageGraph(std::string_view collection,
+                                std::string_view id) {
+  const std::lock_guard lock(mutex_);
+  collections_.find(collection)->second.shapes.find(id)->second.damaged = true;
+}
+
+absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
+    std::string_view collection, std::string_view id, bool with_labels) const {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
+  const auto it = found->shapes.find(id);
+  if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
+  const ScannedGraph scanned = Scan(it->second);
+  ARGMESH_RETURN_IF_ERROR(scanned.status);
+  return StoredGraph{scanned.record, scanned.graph_version, scanned.graph,
+                     with_labels ? it->second.labels : ""};
+}
+
+absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
+    std::string_view collection_uid, std::string_view after_id,
+    int limit) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  std::vector<ScannedGraph> scanned;
+  const Collection* found = FindUid(collection_uid);
+  if (found == nullptr) return scanned;
+  for (auto it = found->shapes.upper_bound(after_id);
+       it != found->shapes.end() && static_cast<int>(scanned.size()) < limit;
+       ++it) {
+    scanned.push_back(Scan(it->second));
+  }
+  return scanned;
+}
+
+absl::StatusOr<ScannedGraph> MemoryCatalog::FindGraph(
+    std::string_view collection_uid, std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  const Collection* found = FindUid(collection_uid);
+  if (found == nullptr || !found->shapes.contains(id)) {
+    return ShapeNotFoundError(collection_uid, id);
+  }
+  return Scan(found->shapes.find(id)->second);
+}
+
+absl::StatusOr<std::vector<ShapeChange>> MemoryCatalog::ReadChanges(
+    std::string_view collection_uid, int64_t after_generation,
+    int limit) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  std::vector<ShapeChange> changes;
+  const Collection* found = FindUid(collection_uid);
+  if (found == nullptr) return changes;
+  for (const ShapeChange& change : found->changes) {
+    if (change.generation > after_generation &&
+        static_cast<int>(changes.size()) < limit) {
+      changes.push_back(change);
+    }
+  }
+  return changes;
+}
+
+absl::StatusOr<bool> MemoryCatalog::IsMeshReferenced(
+    const Sha256Digest& sha256) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  return IsReferenced(sha256);
+}
+
+absl::StatusOr<std::optional<ShapeWritten>> MemoryCatalog::FindPutShape(
+    const RequestStamp& request) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           Recall(request));
+  if (!answer) return std::nullopt;
+  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten found, ParseShapeWritten(*answer));
+  found.written = false;
+  return found;
+}
+
+absl::Status MemoryCatalog::Close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  return absl::OkStatus();
+}
+
+}  // namespace argmesh

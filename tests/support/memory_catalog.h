@@ -1,0 +1,102 @@
+// A Catalog in memory, for tests of the engine and of the rpc layer.
+//
+// Keeps the whole contract of catalog.h but durability; the port's own test
+// suite runs against it as against the real ones. Single calls can be made to
+// fail.
+#ifndef ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
+#define ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/engine/catalog.h"
+
+namespace argmesh {
+
+class MemoryCatalog : public Catalog {
+ public:
+  absl::StatusOr<CollectionRecord> InsertCollection(
+      const CollectionRecord& record, const RequestStamp& request) override;
+  absl::StatusOr<CollectionRecord> UpdateCollection(
+      const CollectionPatch& patch) override;
+  absl::StatusOr<CollectionDeleted> DeleteCollection(
+      const CollectionDelete& removal) override;
+  absl::StatusOr<CollectionRecord> GetCollection(
+      std::string_view id) const override;
+  absl::StatusOr<std::vector<CollectionRecord>> ListCollections(
+      std::string_view after_id, int limit) const override;
+  absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) override;
+  absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) override;
+  absl::StatusOr<ShapeDeleted> DeleteShape(const ShapeDelete& removal) override;
+  absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
+                                       std::string_view id) const override;
+  absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
+      std::string_view collection, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<StoredGraph> ReadGraph(std::string_view collection,
+                                        std::string_view id,
+                                        bool with_labels) const override;
+  absl::StatusOr<std::vector<ScannedGraph>> ScanGraphs(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<ScannedGraph> FindGraph(std::string_view collection_uid,
+                                         std::string_view id) const override;
+  absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
+      std::string_view collection_uid, int64_t after_generation,
+      int limit) const override;
+  absl::StatusOr<bool> IsMeshReferenced(
+      const Sha256Digest& sha256) const override;
+  absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
+      const RequestStamp& request) const override;
+  absl::Status Close() override;
+
+  // The next PutShape answers `error` and changes nothing.
+  void FailNextPut(absl::Status error);
+  // Makes the stored graph unreadable.
+  void DamageGraph(std::string_view collection, std::string_view id);
+
+ private:
+  struct Shape {
+    ShapeRecord record;
+    uint32_t graph_version = 0;
+    std::string graph;
+    std::string labels;
+    bool damaged = false;
+  };
+  struct Collection {
+    CollectionRecord record;
+    std::map<std::string, Shape, std::less<>> shapes;
+    std::vector<ShapeChange> changes;
+  };
+  struct Answer {
+    RequestStamp request;
+    std::string bytes;
+  };
+
+  absl::StatusOr<Collection*> Find(std::string_view id);
+  absl::StatusOr<const Collection*> Find(std::string_view id) const;
+  const Collection* FindUid(std::string_view uid) const;
+  absl::StatusOr<std::optional<std::string>> Recall(
+      const RequestStamp& request) const;
+  void Remember(const RequestStamp& request, std::string answer);
+  int64_t LogChange(Collection& collection, const std::string& id,
+                    ShapeChange::Kind kind);
+  bool IsReferenced(const Sha256Digest& sha256) const;
+  std::vector<Sha256Digest> Unreferenced(const ShapeRecord& gone) const;
+  static ScannedGraph Scan(const Shape& shape);
+
+  mutable std::mutex mutex_;
+  bool closed_ = false;
+  std::map<std::string, Collection, std::less<>> collections_;
+  std::map<std::pair<std::string, std::string>, Answer> answers_;
+  absl::Status next_put_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
