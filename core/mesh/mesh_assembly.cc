@@ -16,7 +16,7 @@ constexpr int64_t kMaxIndex = std::numeric_limits<int32_t>::max();
 
 // Point-in-triangle tests, a few nanoseconds each: one polygon of the default
 // valence limit with every second corner reflex takes about 10^8.
-constexpr int64_t kFreeTests = 400'000'000;
+constexpr int64_t kFreeTests = 200'000'000;
 constexpr int64_t kTestsPerByte = 32;
 
 absl::Status CheckAtMost(int64_t value, int64_t limit, const char* thing) {

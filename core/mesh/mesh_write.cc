@@ -1,5 +1,6 @@
 #include "core/mesh/mesh_write.h"
 
+#include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
 #include <system_error>

@@ -8,6 +8,10 @@
 namespace argmesh {
 namespace {
 
+// More of them would make a polygon of many coinciding corners cost the cube
+// of its valence.
+constexpr int kMaxRefreshes = 4;
+
 void WriteTriangle(std::span<int32_t> triangles, size_t triangle, int32_t a,
                    int32_t b, int32_t c) {
   triangles[3 * triangle] = a;
@@ -104,6 +108,7 @@ bool PolygonTriangulator::FanIsValid() const {
 
 void PolygonTriangulator::Link() {
   const size_t valence = points_.size();
+  refreshes_left_ = kMaxRefreshes;
   previous_.resize(valence);
   next_.resize(valence);
   is_strictly_convex_.assign(valence, 0);
@@ -151,12 +156,13 @@ void PolygonTriangulator::Unlink(size_t corner) {
 
 // The first ear from `start` on; `points_.size()` when there is none. A corner
 // may have become an ear behind our back only where corners are collinear or
-// coincide, so the flags are refreshed before giving up.
+// coincide, so the flags are refreshed before giving up, a few times.
 size_t PolygonTriangulator::FindEar(size_t start, size_t left) {
   for (const bool refresh : {false, true}) {
+    if (refresh && --refreshes_left_ < 0) break;
     size_t corner = start;
     for (size_t i = 0; i < left; ++i, corner = next_[corner]) {
-      if (refresh && tests_left_ >= 0) UpdateCorner(corner);
+      if (refresh) UpdateCorner(corner);
       if (is_ear_[corner] != 0) return corner;
     }
     tests_left_ -= static_cast<int64_t>(left);
@@ -168,15 +174,15 @@ absl::Status PolygonTriangulator::ClipEars(std::span<const int32_t> polygon,
                                            std::span<int32_t> triangles) {
   Link();
   size_t start = 0;
-  bool irregular = false;
+  bool has_ears = true;
   for (size_t left = polygon.size(); left >= 3; --left) {
     size_t ear = start;
-    if (left > 3) {
-      ear = FindEar(start, left);
-      if (ear == points_.size()) {
-        irregular = true;
-        ear = start;
-      }
+    if (has_ears && left > 3) ear = FindEar(start, left);
+    if (ear == points_.size()) {
+      // No simple polygon: a fan around the corner before `start` fills it.
+      has_ears = false;
+      ++num_irregular_;
+      ear = start;
     }
     if (tests_left_ < 0) {
       return absl::ResourceExhaustedError(absl::StrFormat(
@@ -189,11 +195,12 @@ absl::Status PolygonTriangulator::ClipEars(std::span<const int32_t> polygon,
     WriteTriangle(triangles, polygon.size() - left, polygon[before],
                   polygon[ear], polygon[after]);
     Unlink(ear);
+    start = after;
+    if (!has_ears) continue;
     UpdateCorner(before);
     UpdateCorner(after);
     start = next_[after];
   }
-  if (irregular) ++num_irregular_;
   return absl::OkStatus();
 }
 

@@ -65,6 +65,7 @@ class PolygonTriangulator {
   std::vector<uint8_t> is_strictly_convex_;
   std::vector<uint8_t> is_ear_;
   double smallest_cross_ = 0;
+  int refreshes_left_ = 0;
 };
 
 }  // namespace argmesh

@@ -21,8 +21,8 @@
 namespace argmesh {
 
 struct TextScannerOptions {
-  std::string_view format_name;      // for messages: "OFF"
-  bool hash_comments = true;         // '#' begins a comment
+  std::string_view format_name = "text";  // for messages: "OFF"
+  bool hash_comments = true;              // '#' begins a comment
   bool continuations = false;        // '\' at a line's end joins the next one
   int64_t max_line_bytes = 1 << 20;  // joined lines together
   int64_t first_line = 1;            // number of the first line
