@@ -99,12 +99,13 @@ Spectrum Merge(const Spectrum& a, const Spectrum& b, Eigen::Index count) {
   return merged;
 }
 
-// The `count` smallest pairs orthogonal to `locked`.
+// The `count` smallest pairs orthogonal to `locked`. Each `seed` sees another
+// vector of every eigenspace.
 std::optional<Spectrum> SolveLanczos(const SparseMatrix& symmetric,
                                      const Eigen::MatrixXd& locked, int count,
-                                     double shift) {
+                                     double shift, uint64_t seed) {
   const Eigen::Index n = symmetric.rows();
-  Random random(kStartSeed);
+  Random random(seed);
   Eigen::VectorXd start(n);
   for (Eigen::Index i = 0; i < n; ++i) start[i] = random.Uniform(-1, 1);
   if (locked.cols() > 0) start -= locked * (locked.transpose() * start).eval();
@@ -136,7 +137,8 @@ std::optional<int> CountBelow(const SparseMatrix& symmetric, double limit) {
 // the pairs are counted, and missing ones are looked for in the complement.
 std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
                                       double shift) {
-  auto found = SolveLanczos(symmetric, Eigen::MatrixXd(), count, shift);
+  uint64_t seed = kStartSeed;
+  auto found = SolveLanczos(symmetric, Eigen::MatrixXd(), count, shift, seed);
   for (int pass = 0; found && pass < kMaxPasses; ++pass) {
     // Below a cluster at the end of the list, of which some are not wanted.
     const double last = found->values[count - 1];
@@ -146,10 +148,11 @@ std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
     const std::optional<int> expected = CountBelow(symmetric, limit);
     if (!expected) return std::nullopt;
     if (*expected <= known) return found;
-    const auto missing = SolveLanczos(
-        symmetric, found->vectors, std::min(*expected - known, count), shift);
-    if (!missing) return std::nullopt;
-    found = Merge(*found, *missing, count);
+    const auto copies =
+        SolveLanczos(symmetric, found->vectors,
+                     std::min(*expected - known, count), shift, ++seed);
+    if (!copies) return std::nullopt;
+    found = Merge(*found, *copies, count);
   }
   return std::nullopt;
 }

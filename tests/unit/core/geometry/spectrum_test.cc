@@ -187,6 +187,24 @@ TEST(ComputeSpectrum, FindsEveryCopyOfAMultipleEigenvalue) {
   }
 }
 
+TEST(ComputeSpectrum, FindsEveryPairOfTwoEqualComponents) {
+  const TriangleMesh ball = MakeIcosphere(10, 1);
+  const TriangleMesh mesh =
+      Join(ball, Moved(ball, Eigen::Matrix3d::Identity(), 1, {3, 0, 0}));
+  const SurfaceGraph graph = BuildSurfaceGraph(mesh, {.bridges = false});
+  ASSERT_OK_AND_ASSIGN(
+      const Spectrum s,
+      ComputeSpectrum(
+          BuildLaplacian(graph, ComputeCotangentWeights(mesh, graph)),
+          ComputeVertexAreas(mesh), 60));
+  for (int k = 0; k < 60; k += 2) {
+    EXPECT_NEAR(s.values[k], s.values[k + 1], 1e-6 * (1 + s.values[k]));
+  }
+  // l = 0 .. 4 twice, then l = 5.
+  EXPECT_NEAR(s.values[49], 20, 0.6);
+  EXPECT_NEAR(s.values[50], 30, 0.9);
+}
+
 TEST(ComputeSpectrum, TakesAllButTwoPairsOfASmallMesh) {
   ASSERT_OK_AND_ASSIGN(const Spectrum s, Compute(MakeIcosphere(1, 1), 10));
   EXPECT_EQ(s.values.size(), 10);
