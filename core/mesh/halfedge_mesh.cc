@@ -1,6 +1,7 @@
 #include "core/mesh/halfedge_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/System/omstream.hh>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -37,6 +38,12 @@ HalfedgeMesh::~HalfedgeMesh() = default;
 
 absl::StatusOr<HalfedgeMesh> HalfedgeMesh::Create(const FaceMatrix& F,
                                                   int num_vertices) {
+  // add_face writes to the standard error besides failing.
+  static const bool silent = [] {
+    omerr().disable();
+    return true;
+  }();
+  static_cast<void>(silent);
   auto kernel = std::make_unique<Kernel>();
   auto& mesh = kernel->mesh;
   const size_t num_faces = static_cast<size_t>(F.rows());
