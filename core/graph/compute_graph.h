@@ -33,7 +33,7 @@ absl::StatusOr<ComputedGraph> ComputeShapeGraph(
 //
 // Fails    kInternal  the surface is inconsistent or not finite
 //          kCancelled, kDeadlineExceeded
-// Cost     about 25 ms for 3,000 samples: one Dijkstra for each finest region
+// Cost     about 35 ms for 3,000 samples: one Dijkstra for each finest region
 //          and uniform cell.
 absl::StatusOr<ShapeGraph> BuildShapeGraph(
     const SurfaceAbstraction& surface, const StopToken& stop = {},
