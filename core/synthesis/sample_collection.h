@@ -27,7 +27,7 @@ struct SampleCollectionOptions {
   double cut_share = 0;    // of each class, 0 .. 1; rounded
   double moved_share = 0;  // of each class, 0 .. 1; the three sum to <= 1
   double noise = 0.004;    // of the diagonal, 0 .. 0.1
-  SampleShapeOptions shape;
+  SampleShapeOptions shape = {};
 };
 
 enum class SampleCondition { kClean, kNoisy, kCut, kMoved };
