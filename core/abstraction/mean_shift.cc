@@ -46,8 +46,10 @@ class Shifter {
       Eigen::MatrixXf kernel = -2.0F * (points_.transpose() * y);
       kernel.colwise() += squared_norms_;
       kernel.rowwise() += y.colwise().squaredNorm();
-      kernel =
-          (kernel.array().max(0.0F) * scale).exp().colwise() * masses_.array();
+      // The floor keeps the exponential in its fast range; e^-50 is no mass.
+      kernel = (kernel.array() * scale).min(0.0F).max(-50.0F);
+      kernel = kernel.array().exp();
+      kernel.array().colwise() *= masses_.array();
       const Eigen::RowVectorXf sums = kernel.colwise().sum();
       const Eigen::MatrixXf means = points_ * kernel;
       std::vector<Eigen::Index> moving;
