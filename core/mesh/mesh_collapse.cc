@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double kPull = 0.05;           // towards the middle, of the weight
 constexpr double kSmallestCosine = 0.1;  // between a face's old and new normal
+// The stamp of a vertex that is gone; with any other it sums below zero.
+constexpr int32_t kGone = std::numeric_limits<int32_t>::min() / 2;
 constexpr int kStepsPerCheck = 4096;
 // An edge that was refused can become possible when its neighbourhood has
 // changed; looking again more often brings next to nothing.
@@ -160,8 +163,7 @@ class EdgeCollapser {
   }
 
   bool IsCurrent(const Candidate& edge) const {
-    return stamps_[Slot(edge.a)] + stamps_[Slot(edge.b)] == edge.stamp &&
-           halfedges_.IsAlive(edge.a) && halfedges_.IsAlive(edge.b);
+    return stamps_[Slot(edge.a)] + stamps_[Slot(edge.b)] == edge.stamp;
   }
 
   Candidate MakeCandidate(int32_t a, int32_t b) const {
@@ -194,6 +196,7 @@ class EdgeCollapser {
     V_.row(edge.a) = x.transpose();
     quadrics_[Slot(edge.a)] += quadrics_[Slot(edge.b)];
     ++stamps_[Slot(edge.a)];
+    stamps_[Slot(edge.b)] = kGone;
     --alive_;
     halfedges_.GetRing(edge.a, ring_);
     for (const int32_t v : ring_) {
