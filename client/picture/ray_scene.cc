@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_format.h"
+#include "core/base/status_macros.h"
 
 namespace argmesh {
 
@@ -20,18 +21,22 @@ struct RayScene::Impl {
     if (device != nullptr) rtcReleaseDevice(device);
   }
 
+  Eigen::Vector3f ToPicture(const Eigen::Vector3d& p) const {
+    return (axes * (p - center) + middle).cast<float>();
+  }
+  absl::Status AddMesh(const TriangleMesh& mesh);
+
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   // Rows are the picture's axes, in pixels per unit.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  float near_z = 0;
+  float near_z = 0;  // beyond the nearest point
 };
 
 namespace {
 
-// Embree reads whole 16-byte lanes beyond the last vertex.
 struct Float3 {
   float x, y, z;
 };
@@ -45,6 +50,36 @@ RayScene::RayScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+absl::Status RayScene::Impl::AddMesh(const TriangleMesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<Float3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3),
+      static_cast<size_t>(mesh.num_vertices())));
+  auto* faces = static_cast<Index3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Index3),
+      static_cast<size_t>(mesh.num_faces())));
+  if (vertices == nullptr || faces == nullptr) {
+    rtcReleaseGeometry(geometry);
+    return absl::ResourceExhaustedError(
+        absl::StrFormat("ray tracer: no memory for %d vertices and %d faces",
+                        mesh.num_vertices(), mesh.num_faces()));
+  }
+  for (int v = 0; v < mesh.num_vertices(); ++v) {
+    const Eigen::Vector3f p = ToPicture(mesh.vertex(v));
+    vertices[v] = {p.x(), p.y(), p.z()};
+    near_z = std::max(near_z, p.z() + 1);
+  }
+  for (int f = 0; f < mesh.num_faces(); ++f) {
+    faces[f] = {static_cast<unsigned>(mesh.F(f, 0)),
+                static_cast<unsigned>(mesh.F(f, 1)),
+                static_cast<unsigned>(mesh.F(f, 2))};
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  return absl::OkStatus();
+}
 
 absl::StatusOr<RayScene> RayScene::Create(const TriangleMesh& mesh,
                                           const View& view, int width,
@@ -62,37 +97,7 @@ absl::StatusOr<RayScene> RayScene::Create(const TriangleMesh& mesh,
   }
   impl->scene = rtcNewScene(impl->device);
   rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry =
-      rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<Float3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3),
-      static_cast<size_t>(mesh.num_vertices())));
-  auto* faces = static_cast<Index3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Index3),
-      static_cast<size_t>(mesh.num_faces())));
-  if (vertices == nullptr || faces == nullptr) {
-    rtcReleaseGeometry(geometry);
-    return absl::ResourceExhaustedError(
-        absl::StrFormat("ray tracer: no memory for %d vertices and %d faces",
-                        mesh.num_vertices(), mesh.num_faces()));
-  }
-  float near_z = 0;
-  for (int v = 0; v < mesh.num_vertices(); ++v) {
-    const Eigen::Vector3f p =
-        (impl->axes * (mesh.vertex(v) - impl->center) + impl->middle)
-            .cast<float>();
-    vertices[v] = {p.x(), p.y(), p.z()};
-    near_z = std::max(near_z, p.z());
-  }
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    faces[f] = {static_cast<unsigned>(mesh.F(f, 0)),
-                static_cast<unsigned>(mesh.F(f, 1)),
-                static_cast<unsigned>(mesh.F(f, 2))};
-  }
-  impl->near_z = near_z + 1;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(impl->scene, geometry);
-  rtcReleaseGeometry(geometry);
+  ARGMESH_RETURN_IF_ERROR(impl->AddMesh(mesh));
   rtcCommitScene(impl->scene);
   if (rtcGetDeviceError(impl->device) != RTC_ERROR_NONE) {
     return absl::ResourceExhaustedError("ray tracer: building the tree failed");
@@ -138,7 +143,7 @@ bool RayScene::Occluded(const Eigen::Vector3f& origin,
 }
 
 Eigen::Vector3f RayScene::ToPicture(const Eigen::Vector3d& p) const {
-  return (impl_->axes * (p - impl_->center) + impl_->middle).cast<float>();
+  return impl_->ToPicture(p);
 }
 
 Eigen::Vector3f RayScene::DirectionToPicture(const Eigen::Vector3d& d) const {

@@ -23,6 +23,7 @@ using Eigen::Vector3f;
 
 constexpr int kSub = SubpixelGrid::kSub;
 constexpr float kShadowStrength = 0.55F;
+constexpr float kShadowFade = 0.12F;  // of the smaller side
 
 absl::Status CheckOptions(const RenderOptions& options) {
   const auto in_range = [](const char* name, double value, double low,
@@ -126,10 +127,20 @@ class Renderer {
     return color[0] << 16 | color[1] << 8 | color[2];
   }
 
+  // 1 inside, falling to 0 at the edge of the picture.
+  float FadeAt(float x, float y) const {
+    const auto width = static_cast<float>(options_.width);
+    const auto height = static_cast<float>(options_.height);
+    const float border = std::min({x, y, width - x, height - y});
+    return std::clamp(border / (kShadowFade * std::min(width, height)), 0.0F,
+                      1.0F);
+  }
+
   Vector3f Shade(const RayHit& hit, float x, float y, float openness) const {
     if (hit.face >= 0) return shader_.Color(hit, {x, y, hit.z}, openness);
     const RgbColor& back = options_.background;
-    const float light = ground_ ? 1 - kShadowStrength * (1 - openness) : 1;
+    const float light =
+        ground_ ? 1 - kShadowStrength * FadeAt(x, y) * (1 - openness) : 1;
     return Vector3f(back[0], back[1], back[2]) * light;
   }
 

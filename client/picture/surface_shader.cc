@@ -75,15 +75,21 @@ Vector3f SurfaceShader::Color(const RayHit& hit, const Vector3f& at,
                       kKey * std::max(normal.dot(key), 0.0F) * shade +
                       kFill * std::max(normal.dot(fill), 0.0F) * shade;
   const Vector3f base =
-      Mark(ToVector(face_colors_[static_cast<size_t>(hit.face)]), at);
+      Mark(ToVector(face_colors_[static_cast<size_t>(hit.face)]), at, normal);
   return (base * light).cwiseMin(255.0F);
 }
 
-Vector3f SurfaceShader::Mark(Vector3f color, const Vector3f& at) const {
+Vector3f SurfaceShader::Mark(Vector3f color, const Vector3f& at,
+                             const Vector3f& normal) const {
   for (const Marker& marker : markers_) {
-    const float distance = (at - marker.center).norm();
-    if (marker.window > 0 &&
-        std::abs(distance - marker.window) < kCircleHalfWidth) {
+    const Vector3f away = at - marker.center;
+    const float distance = away.norm();
+    if (marker.window <= 0 || distance <= 0) continue;
+    // Where the surface runs along the sphere the distance changes slowly: a
+    // line of even width asks for less of it.
+    const float cosine = normal.dot(away) / distance;
+    const float slope = std::sqrt(std::max(1 - cosine * cosine, 0.0F));
+    if (std::abs(distance - marker.window) < kCircleHalfWidth * slope) {
       color = marker.circle;
     }
   }

@@ -32,7 +32,8 @@ class SurfaceShader {
     float window = 0;        // pixels
     Eigen::Vector3f dot, circle;
   };
-  Eigen::Vector3f Mark(Eigen::Vector3f color, const Eigen::Vector3f& at) const;
+  Eigen::Vector3f Mark(Eigen::Vector3f color, const Eigen::Vector3f& at,
+                       const Eigen::Vector3f& normal) const;
 
   std::span<const RgbColor> face_colors_;
   std::vector<Eigen::Vector3f> corner_normals_;  // in the picture's axes

@@ -66,6 +66,34 @@ void AddQuadrupedHead(ImplicitSurface& surface, const QuadrupedSize& size,
   }
 }
 
+// The y axis is the fish's: outlines (x, y) become (y, z).
+Pose UprightOutline() {
+  Pose upright = Pose::Identity();
+  upright.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  return upright;
+}
+
+// A dorsal fin up to `high`, an anal fin and two pectoral fins.
+void AddFins(ImplicitSurface& surface, double tall, double wide, double high) {
+  const Pose upright = UprightOutline();
+  surface.BeginPart("fins");
+  const Outline dorsal = {{-0.2, 0.7 * tall},
+                          {-0.06, high},
+                          {0.1, high - 0.05},
+                          {0.14, 0.45 * tall}};
+  surface.Add(MakeExtrusion(upright, dorsal, 0.002, 0.015), 0.02);
+  const Outline anal = {
+      {0.0, -0.7 * tall}, {0.14, -tall - 0.05}, {0.17, -0.4 * tall}};
+  surface.Add(MakeExtrusion(upright, anal, 0.002, 0.015), 0.02);
+  for (const double side : {-1.0, 1.0}) {
+    const Pose shoulder = At(side * 0.75 * wide, -0.2, -0.25 * tall) *
+                          TurnZ(side * 20) * TurnY(side * 35);
+    const Outline fin = {
+        {0, -0.03}, {side * 0.14, 0.04}, {side * 0.12, 0.11}, {0, 0.04}};
+    surface.Add(MakeExtrusion(shoulder, fin, 0.002, 0.015), 0.01);
+  }
+}
+
 }  // namespace
 
 SampleModel MakeQuadruped(Random& random) {
@@ -155,9 +183,6 @@ SampleModel MakeFish(Random& random) {
   const double bend = random.Uniform(-25, 25);
   SampleModel model;
   ImplicitSurface& surface = model.surface;
-  // The y axis is the fish's; outlines of fins lie in the plane of y and z.
-  Pose upright = Pose::Identity();
-  upright.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   surface.BeginPart("body");
   surface.Add(MakeEllipsoid(At(0, -0.1, 0), {wide, 0.36, tall}));
   const Pose hip = At(0, 0.12, 0) * TurnZ(0.5 * bend);
@@ -172,24 +197,8 @@ SampleModel MakeFish(Random& random) {
                         {0.2 - fork, 0},
                         {0.2, 0.22},
                         {-0.06, 0.015}};
-  surface.Add(MakeExtrusion(root * upright, tail, 0.002, 0.015), 0.02);
-  surface.BeginPart("fins");
-  const double high = tall + random.Uniform(0.07, 0.13);
-  const Outline dorsal = {{-0.2, 0.7 * tall},
-                          {-0.06, high},
-                          {0.1, high - 0.05},
-                          {0.14, 0.45 * tall}};
-  surface.Add(MakeExtrusion(upright, dorsal, 0.002, 0.015), 0.02);
-  const Outline anal = {
-      {0.0, -0.7 * tall}, {0.14, -tall - 0.05}, {0.17, -0.4 * tall}};
-  surface.Add(MakeExtrusion(upright, anal, 0.002, 0.015), 0.02);
-  for (const double side : {-1.0, 1.0}) {
-    const Pose shoulder = At(side * 0.75 * wide, -0.2, -0.25 * tall) *
-                          TurnZ(side * 20) * TurnY(side * 35);
-    const Outline fin = {
-        {0, -0.03}, {side * 0.14, 0.04}, {side * 0.12, 0.11}, {0, 0.04}};
-    surface.Add(MakeExtrusion(shoulder, fin, 0.002, 0.015), 0.01);
-  }
+  surface.Add(MakeExtrusion(root * UprightOutline(), tail, 0.002, 0.015), 0.02);
+  AddFins(surface, tall, wide, tall + random.Uniform(0.07, 0.13));
   return model;
 }
 

@@ -27,6 +27,37 @@ void AddHandle(ImplicitSurface& surface, const Vector2d& top,
   AddSweep(surface, knots, {.blend = 0.6 * radius, .pieces = 5});
 }
 
+struct ChairBack {
+  double half_width = 0;
+  double height = 0;
+  double lean = 0;  // of the top behind the seat
+  double post = 0;  // radius
+  int rails = 1;    // the topmost is the widest
+};
+
+// Two posts and rails between them; `seat` is the middle of the rear edge.
+void AddChairBack(ImplicitSurface& surface, const Vector3d& seat,
+                  const ChairBack& back) {
+  surface.BeginPart("back");
+  for (const double x : {-back.half_width, back.half_width}) {
+    surface.Add(MakeCapsule(seat + Vector3d(x, 0, 0),
+                            seat + Vector3d(x, back.lean, back.height),
+                            back.post, 0.9 * back.post),
+                0.01);
+  }
+  const double tilt =
+      -std::atan2(back.lean, back.height) * 180 / std::numbers::pi;
+  for (int i = 0; i < back.rails; ++i) {
+    const double half = i == 0 ? 0.035 : 0.02;
+    const double at = back.height * (1.0 - 0.75 * i / back.rails) - half;
+    const Vector3d middle =
+        seat + Vector3d(0, back.lean * at / back.height, at);
+    surface.Add(MakeBox(At(middle) * TurnX(tilt),
+                        {back.half_width - 0.005, 0.004, half}, 0.012),
+                0.006);
+  }
+}
+
 }  // namespace
 
 SampleModel MakeMug(Random& random) {
@@ -136,24 +167,12 @@ SampleModel MakeChair(Random& random) {
                   0.01);
     }
   }
-  surface.BeginPart("back");
-  const double y = depth - 0.015;
-  for (const double x : {-1.0, 1.0}) {
-    surface.Add(MakeCapsule({x * (width - 0.015), y, seat},
-                            {x * (width - 0.015), y + lean, seat + back}, leg,
-                            0.9 * leg),
-                0.01);
-  }
-  const double tilt = -std::atan2(lean, back) * 180 / std::numbers::pi;
-  const double rails = slats + 1;
-  for (int i = 0; i <= slats; ++i) {
-    const double at = back * (1.0 - 0.75 * i / rails);
-    const double half = i == 0 ? 0.035 : 0.02;
-    surface.Add(MakeBox(At(0, y + lean * (at - half) / back, seat + at - half) *
-                            TurnX(tilt),
-                        {width - 0.02, 0.004, half}, 0.012),
-                0.006);
-  }
+  AddChairBack(surface, {0, depth - 0.015, seat},
+               {.half_width = width - 0.015,
+                .height = back,
+                .lean = lean,
+                .post = leg,
+                .rails = slats + 1});
   return model;
 }
 

@@ -146,6 +146,36 @@ SampleModel MakeGear(Random& random) {
   return model;
 }
 
+namespace {
+
+// A closed wire about (center, 0, 0); `square` above 1 pushes it outward
+// between the axes.
+void AddRim(ImplicitSurface& surface, double center,
+            const Eigen::Vector2d& radii, double square, double wire) {
+  std::vector<SweepKnot> rim;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = std::numbers::pi / 6 * i;
+    const double corner = 1 + (square - 1) * std::pow(std::sin(2 * angle), 2.0);
+    rim.push_back({{center + radii.x() * corner * std::cos(angle), 0,
+                    radii.y() * corner * std::sin(angle)},
+                   wire});
+  }
+  surface.BeginPart("rims");
+  AddSweep(surface, rim, {.blend = 0, .pieces = 3, .closed = true});
+}
+
+void AddTemple(ImplicitSurface& surface, const Pose& hinge, double wire) {
+  const std::vector<SweepKnot> temple = {
+      {Along(hinge, 0, -0.01, 0), wire},
+      {Along(hinge, 0, 0.25, 0.01), 0.9 * wire},
+      {Along(hinge, 0, 0.56, 0), 0.9 * wire},
+      {Along(hinge, 0, 0.72, -0.12), wire}};
+  surface.BeginPart("temples");
+  AddSweep(surface, temple, {.blend = 0.012, .pieces = 5});
+}
+
+}  // namespace
+
 SampleModel MakeGlasses(Random& random) {
   const double width = random.Uniform(0.2, 0.23);
   const double height = random.Uniform(0.72, 1.0) * width;
@@ -155,29 +185,11 @@ SampleModel MakeGlasses(Random& random) {
   SampleModel model{.surface = {}, .genus = 2};
   ImplicitSurface& surface = model.surface;
   for (const double side : {-1.0, 1.0}) {
-    surface.BeginPart("rims");
-    const double center = side * (width + bridge);
-    std::vector<SweepKnot> rim;
-    for (int i = 0; i < 12; ++i) {
-      const double angle = std::numbers::pi / 6 * i;
-      const double corner =
-          1 + (square - 1) * std::pow(std::sin(2 * angle), 2.0);
-      rim.push_back({{center + width * corner * std::cos(angle), 0,
-                      height * corner * std::sin(angle)},
-                     wire});
-    }
-    AddSweep(surface, rim, {.blend = 0, .pieces = 3, .closed = true});
-    surface.BeginPart("temples");
+    AddRim(surface, side * (width + bridge), {width, height}, square, wire);
+    const double reach = 2 * width + bridge + 0.015;
     const double fold = random.Uniform(0, 55);
-    const Pose hinge =
-        At(side * (2 * width + bridge + 0.015), 0.01, 0.3 * height) *
-        TurnZ(side * fold);
-    const std::vector<SweepKnot> temple = {
-        {Along(hinge, 0, -0.01, 0), wire},
-        {Along(hinge, 0, 0.25, 0.01), 0.9 * wire},
-        {Along(hinge, 0, 0.56, 0), 0.9 * wire},
-        {Along(hinge, 0, 0.72, -0.12), wire}};
-    AddSweep(surface, temple, {.blend = 0.012, .pieces = 5});
+    AddTemple(surface,
+              At(side * reach, 0.01, 0.3 * height) * TurnZ(side * fold), wire);
   }
   surface.BeginPart("bridge");
   const double at = 0.25 * height;
