@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_format.h"
 #include "client/client_parts.h"
+#include "client/request_id.h"
 #include "core/base/status_macros.h"
 
 namespace argmesh {
@@ -69,9 +70,10 @@ const std::string& Client::target() const { return parts_->target; }
 const ClientOptions& Client::options() const { return parts_->options; }
 
 absl::StatusOr<v1::Collection> Client::CreateCollection(
-    const v1::CreateCollectionRequest& request) {
+    v1::CreateCollectionRequest request) {
+  FillRequestId(request);
   return parts_->Call<v1::Collection>(
-      Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
         return parts_->collections->CreateCollection(context, request,
                                                      response);
       });

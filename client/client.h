@@ -7,8 +7,9 @@
 //   auto response = client->SearchShapes(request);
 //
 // Every call has the deadline of the options. Calls that change nothing, and
-// those that carry a request_id, are tried again when the server cannot be
-// reached or asks for it. A Client is safe to use from many threads.
+// those that the server knows by a request_id (filled in where it is empty),
+// are tried again when the server cannot be reached or asks for it. A Client
+// is safe to use from many threads.
 //
 // Fails    with the server's code and reason, see error_status.h;
 //          kUnavailable       no server answers; IsUnreachable is true
@@ -60,7 +61,7 @@ class Client {
 
   // --- collections ---------------------------------------------------------
   absl::StatusOr<v1::Collection> CreateCollection(
-      const v1::CreateCollectionRequest& request);
+      v1::CreateCollectionRequest request);
   absl::StatusOr<v1::Collection> GetCollection(std::string_view name);
   // One page.
   absl::StatusOr<v1::ListCollectionsResponse> ListCollections(
@@ -71,7 +72,7 @@ class Client {
   absl::Status DeleteCollection(const v1::DeleteCollectionRequest& request);
 
   // --- shapes --------------------------------------------------------------
-  absl::StatusOr<v1::Shape> CreateShape(const v1::CreateShapeRequest& request);
+  absl::StatusOr<v1::Shape> CreateShape(v1::CreateShapeRequest request);
   // Of any size. `header` needs no size and digest: they are filled in.
   absl::StatusOr<v1::Shape> UploadShape(v1::UploadShapeHeader header,
                                         std::string_view bytes);
@@ -81,7 +82,7 @@ class Client {
   absl::Status ForEachShape(std::string_view collection_name,
                             const std::function<bool(const v1::Shape&)>& visit);
   absl::StatusOr<v1::DeleteShapeResponse> DeleteShape(
-      const v1::DeleteShapeRequest& request);
+      v1::DeleteShapeRequest request);
   // Checked against the announced size and SHA-256.
   absl::StatusOr<DownloadedMesh> DownloadMesh(std::string_view name);
   // As many calls as the labels of all faces take. `level` counts only for

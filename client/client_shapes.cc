@@ -6,6 +6,7 @@
 #include "client/client.h"
 #include "client/client_parts.h"
 #include "client/mesh_chunks.h"
+#include "client/request_id.h"
 #include "core/base/sha256.h"
 #include "core/base/status_macros.h"
 
@@ -55,12 +56,10 @@ absl::Status AppendLabels(const v1::GetShapeGraphResponse& part,
 
 }  // namespace
 
-absl::StatusOr<v1::Shape> Client::CreateShape(
-    const v1::CreateShapeRequest& request) {
-  const Repeat repeat =
-      request.request_id().empty() ? Repeat::kNever : Repeat::kSafe;
+absl::StatusOr<v1::Shape> Client::CreateShape(v1::CreateShapeRequest request) {
+  FillRequestId(request);
   return parts_->Call<v1::Shape>(
-      repeat, [&](grpc::ClientContext* context, auto* response) {
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
         return parts_->shapes->CreateShape(context, request, response);
       });
 }
@@ -69,12 +68,11 @@ absl::StatusOr<v1::Shape> Client::UploadShape(v1::UploadShapeHeader header,
                                               std::string_view bytes) {
   header.set_size_bytes(static_cast<int64_t>(bytes.size()));
   header.set_sha256(ToHex(ComputeSha256(bytes)));
+  FillRequestId(header);
   v1::UploadShapeRequest first;
   *first.mutable_header() = std::move(header);
-  const Repeat repeat =
-      first.header().request_id().empty() ? Repeat::kNever : Repeat::kSafe;
   return parts_->Call<v1::Shape>(
-      repeat, [&](grpc::ClientContext* context, auto* response) {
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
         const auto writer = parts_->shapes->UploadShape(context, response);
         // A refused write means that the server has answered already: Finish
         // tells what.
@@ -124,9 +122,10 @@ absl::Status Client::ForEachShape(
 }
 
 absl::StatusOr<v1::DeleteShapeResponse> Client::DeleteShape(
-    const v1::DeleteShapeRequest& request) {
+    v1::DeleteShapeRequest request) {
+  FillRequestId(request);
   return parts_->Call<v1::DeleteShapeResponse>(
-      Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
         return parts_->shapes->DeleteShape(context, request, response);
       });
 }

@@ -13,6 +13,7 @@
 #include "client/client_parts.h"
 #include "client/error_status.h"
 #include "client/ingest_stream.h"
+#include "client/request_id.h"
 #include "core/base/sha256.h"
 
 namespace argmesh {
@@ -37,7 +38,10 @@ class IngestRun {
         stop_(std::move(stop)),
         states_(entries.size(), EntryState::kWaiting),
         sends_(entries.size(), 0) {
-    for (size_t i = 0; i < entries.size(); ++i) waiting_.push_back(i);
+    for (size_t i = 0; i < entries.size(); ++i) {
+      waiting_.push_back(i);
+      request_ids_.push_back(NewRequestId());
+    }
   }
 
   absl::Status Run();
@@ -63,6 +67,7 @@ class IngestRun {
   const std::span<const IngestEntry> entries_;
   const std::function<void(const IngestOutcome&)>& report_;
   const std::stop_token stop_;
+  std::vector<std::string> request_ids_;  // one for all sends of an entry
 
   mutable std::mutex mutex_;
   // Guarded by mutex_.
@@ -103,7 +108,7 @@ absl::Status IngestRun::RunStream() {
   v1::IngestHello hello;
   hello.set_collection(options_.collection);
   hello.set_create_if_absent(options_.create_if_absent);
-  *hello.mutable_settings() = options_.settings;
+  if (options_.settings) *hello.mutable_settings() = *options_.settings;
   IngestStream stream(
       *client_.parts().ingest, hello, client_.options().call_timeout,
       [this](const v1::IngestItemResult& result) { TakeResult(result); });
@@ -149,6 +154,10 @@ std::optional<std::pair<v1::IngestItem, std::string>> IngestRun::Prepare(
     size_t index) {
   const IngestEntry& entry = entries_[index];
   auto bytes = entry.read();
+  if (bytes.ok() && bytes->empty()) {
+    bytes = MakeStatus(absl::StatusCode::kInvalidArgument, "MESH_EMPTY",
+                       "the file is empty");
+  }
   if (!bytes.ok()) {
     Report({.index = index, .status = bytes.status()});
     return std::nullopt;
@@ -162,7 +171,8 @@ std::optional<std::pair<v1::IngestItem, std::string>> IngestRun::Prepare(
   item.set_display_name(entry.display_name);
   item.set_source_uri(entry.source_uri);
   item.mutable_metadata()->insert(entry.metadata.begin(), entry.metadata.end());
-  item.set_existing_shape_policy(v1::EXISTING_SHAPE_POLICY_ACCEPT_SAME_MESH);
+  item.set_existing_shape_policy(options_.existing);
+  item.set_request_id(request_ids_[index]);
   if (options_.decide && sends_[index] == 0) {
     const auto decision = options_.decide(index, item.sha256());
     if (!decision.ok() || *decision == IngestDecision::kSkip) {

@@ -8,14 +8,15 @@
 //   });
 //
 // An entry whose outcome is OK is durable and searchable. Entries that were
-// under way when a connection broke are sent again under the rule "accept the
-// same mesh", so that none is lost and none is stored twice.
+// under way when a connection broke are sent again with the same request_id,
+// so that none is lost and none is stored twice.
 #ifndef ARGMESH_CLIENT_INGESTOR_H_
 #define ARGMESH_CLIENT_INGESTOR_H_
 
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -45,7 +46,11 @@ enum class IngestDecision { kSend, kSkip };
 struct IngestOptions {
   std::string collection;  // `collections/{collection}`
   bool create_if_absent = false;
-  v1::CollectionSettings settings;  // of a collection made by this
+  // Of a collection made by this; another one that exists with other settings
+  // is then refused. The server's choice, and any collection, when absent.
+  std::optional<v1::CollectionSettings> settings;
+  // What becomes of a stored shape of the same id.
+  v1::ExistingShapePolicy existing = v1::EXISTING_SHAPE_POLICY_ACCEPT_SAME_MESH;
   // Entries under way at a time, beside what the server allows; 0: no limit.
   int max_in_flight = 0;
   // Attempts to reach the server without any new outcome between them.
@@ -62,7 +67,7 @@ struct IngestOptions {
 
 // What became of one entry.
 struct IngestOutcome {
-  size_t index = 0;     // of the entry
+  size_t index = 0;          // of the entry
   absl::Status status = {};  // OK: stored
   // It was there before this run: skipped by `decide`, or so the server says.
   bool already_stored = false;
