@@ -44,7 +44,7 @@ CREATE TABLE shape (
   mesh_sha256    BLOB    REFERENCES mesh(sha256) ON DELETE RESTRICT,
   display_name   TEXT    NOT NULL,
   source_uri     TEXT    NOT NULL,
-  metadata       TEXT    NOT NULL CHECK (json_valid(metadata)),
+  metadata       TEXT    NOT NULL,
   details        BLOB    NOT NULL,
   generation     INTEGER NOT NULL,
   create_us      INTEGER NOT NULL,

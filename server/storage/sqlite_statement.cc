@@ -42,7 +42,7 @@ absl::Status SqliteError(sqlite3* db, int code, std::string_view what) {
       db == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(db);
   return MakeError(
       ReasonOfCode(code),
-      absl::StrFormat("SQLite: %s (%s, code %d) in: %s", message,
+      absl::StrFormat("SQLite: %s (%s, code %d) in: %.120s", message,
                       sqlite3_errstr(code), code, std::string(what)));
 }
 

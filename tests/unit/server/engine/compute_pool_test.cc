@@ -1,0 +1,160 @@
+#include "server/engine/compute_pool.h"
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "absl/time/clock.h"
+#include "server/engine/error_reason.h"
+#include "tests/support/status_matchers.h"
+
+namespace argmesh {
+namespace {
+
+ComputePoolOptions Threads(int threads, int max_queued) {
+  ComputePoolOptions options;
+  options.threads = {threads, threads, threads};
+  options.max_queued = {max_queued, max_queued, max_queued};
+  return options;
+}
+
+// Occupies one thread until released.
+class Blocker {
+ public:
+  Blocker(ComputePool& pool, WorkClass work_class) {
+    std::promise<void> begun;
+    pool.Submit(work_class, absl::InfiniteFuture(),
+                [this, &begun](const absl::Status& status) {
+                  EXPECT_TRUE(status.ok());
+                  begun.set_value();
+                  release_.get_future().wait();
+                });
+    begun.get_future().wait();
+  }
+  void Release() { release_.set_value(); }
+
+ private:
+  std::promise<void> release_;
+};
+
+absl::Status SubmitAndWait(ComputePool& pool, WorkClass work_class,
+                           absl::Time deadline) {
+  auto done = std::make_shared<std::promise<absl::Status>>();
+  std::future<absl::Status> future = done->get_future();
+  pool.Submit(work_class, deadline,
+              [done](absl::Status status) { done->set_value(status); });
+  return future.get();
+}
+
+TEST(ComputePool, RunsWorkOnAnotherThread) {
+  ComputePool pool(Threads(1, 1));
+  std::promise<std::thread::id> id;
+  pool.Submit(WorkClass::kQuick, absl::InfiniteFuture(),
+              [&](const absl::Status& status) {
+                EXPECT_TRUE(status.ok());
+                id.set_value(std::this_thread::get_id());
+              });
+  EXPECT_NE(id.get_future().get(), std::this_thread::get_id());
+}
+
+TEST(ComputePool, RunsWhatWaitsWhenAThreadComesFree) {
+  ComputePool pool(Threads(1, 10));
+  Blocker blocker(pool, WorkClass::kSearch);
+  std::atomic<int> ran{0};
+  std::vector<std::promise<void>> done(5);
+  for (auto& promise : done) {
+    pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
+                [&](const absl::Status& status) {
+                  if (status.ok()) ++ran;
+                  promise.set_value();
+                });
+  }
+  EXPECT_EQ(pool.Load(WorkClass::kSearch).queued, 5);
+  EXPECT_EQ(ran, 0);
+  blocker.Release();
+  for (auto& promise : done) promise.get_future().wait();
+  EXPECT_EQ(ran, 5);
+  EXPECT_EQ(pool.Load(WorkClass::kSearch).admitted, 6);
+}
+
+TEST(ComputePool, RefusesAtOnceWhenItsQueueIsFull) {
+  ComputePool pool(Threads(1, 1));
+  Blocker blocker(pool, WorkClass::kSearch);
+  pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
+              [](const absl::Status&) {});
+  const absl::Status refused =
+      SubmitAndWait(pool, WorkClass::kSearch, absl::InfiniteFuture());
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kOverloaded);
+  EXPECT_TRUE(RetryDelayOf(refused).has_value());
+  EXPECT_EQ(pool.Load(WorkClass::kSearch).refused, 1);
+  blocker.Release();
+}
+
+TEST(ComputePool, RefusesWhatWaitedAQuarterOfItsTime) {
+  ComputePool pool(Threads(1, 4));
+  Blocker blocker(pool, WorkClass::kSearch);
+  const absl::Time start = absl::Now();
+  const absl::Status refused =
+      SubmitAndWait(pool, WorkClass::kSearch, start + absl::Milliseconds(200));
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kOverloaded);
+  EXPECT_GE(absl::Now() - start, absl::Milliseconds(50));
+  EXPECT_EQ(pool.Load(WorkClass::kSearch).queued, 0);
+  blocker.Release();
+}
+
+TEST(ComputePool, KeepsItsClassesApart) {
+  ComputePool pool(Threads(1, 0));
+  Blocker blocker(pool, WorkClass::kCompute);
+  EXPECT_THAT(SubmitAndWait(pool, WorkClass::kSearch, absl::InfiniteFuture()),
+              IsOk());
+  EXPECT_THAT(SubmitAndWait(pool, WorkClass::kQuick, absl::InfiniteFuture()),
+              IsOk());
+  blocker.Release();
+}
+
+TEST(ComputePool, VisitsEveryIndexOfALoopOnce) {
+  ComputePool pool(Threads(4, 4));
+  for (const int64_t count : {int64_t{0}, int64_t{1}, int64_t{1000}}) {
+    std::vector<std::atomic<int>> visits(static_cast<size_t>(count));
+    pool.ParallelFor(WorkClass::kSearch, count,
+                     [&](int64_t i) { ++visits[static_cast<size_t>(i)]; });
+    for (const auto& visit : visits) EXPECT_EQ(visit, 1);
+  }
+  EXPECT_EQ(pool.Load(WorkClass::kSearch).running, 0);
+}
+
+TEST(ComputePool, RunsALoopInsideWorkOfTheSameClassWhenNoThreadIsIdle) {
+  ComputePool pool(Threads(1, 4));
+  std::promise<int64_t> sum;
+  pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
+              [&](const absl::Status&) {
+                std::atomic<int64_t> total{0};
+                pool.ParallelFor(WorkClass::kSearch, 10,
+                                 [&](int64_t i) { total += i; });
+                sum.set_value(total);
+              });
+  EXPECT_EQ(sum.get_future().get(), 45);
+}
+
+TEST(ComputePool, RefusesEverythingOnceItIsClosed) {
+  ComputePool pool(Threads(1, 4));
+  Blocker blocker(pool, WorkClass::kSearch);
+  std::promise<absl::Status> queued;
+  pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
+              [&](absl::Status status) { queued.set_value(status); });
+  std::thread closing([&] { pool.Close(); });
+  EXPECT_EQ(ReasonOf(queued.get_future().get()), ErrorReason::kDraining);
+  blocker.Release();
+  closing.join();
+  EXPECT_EQ(
+      ReasonOf(SubmitAndWait(pool, WorkClass::kQuick, absl::InfiniteFuture())),
+      ErrorReason::kDraining);
+  std::atomic<int> visits{0};
+  pool.ParallelFor(WorkClass::kSearch, 10, [&](int64_t) { ++visits; });
+  EXPECT_EQ(visits, 10);
+}
+
+}  // namespace
+}  // namespace argmesh

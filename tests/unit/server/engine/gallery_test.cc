@@ -1,0 +1,121 @@
+#include "server/engine/gallery.h"
+
+#include <string>
+#include <vector>
+
+#include "server/engine/error_reason.h"
+#include "tests/support/catalog_samples.h"
+#include "tests/support/memory_catalog.h"
+#include "tests/support/status_matchers.h"
+
+namespace argmesh {
+namespace {
+
+using ::testing::ElementsAre;
+
+class GalleryTest : public ::testing::Test {
+ protected:
+  GalleryTest() : pool_({.threads = {2, 1, 1}}), gallery_(catalog_, pool_) {}
+
+  CollectionRecord Insert(const std::string& id, int shapes) {
+    const CollectionRecord record = SampleCollection(id);
+    EXPECT_TRUE(catalog_.InsertCollection(record, {}).ok());
+    for (int i = 0; i < shapes; ++i) Put(record, "s" + std::to_string(i));
+    return record;
+  }
+  int64_t Put(const CollectionRecord& collection, const std::string& id) {
+    ShapePut put = SamplePut(collection, id, 1);
+    put.if_exists = IfExists::kReplace;
+    return catalog_.PutShape(put).value().record.generation;
+  }
+  int64_t SizeOf(const std::string& id) {
+    return gallery_.Snapshot(id, 0).value()->size;
+  }
+
+  MemoryCatalog catalog_;
+  ComputePool pool_;
+  Gallery gallery_;
+};
+
+TEST_F(GalleryTest, LoadsWhatIsStoredAndTellsWhenItIsDone) {
+  std::vector<IndexState> states;
+  gallery_.Watch([&](IndexState state) { states.push_back(state); });
+  Insert("cups", 600);
+  EXPECT_EQ(gallery_.Snapshot("cups", 0).status().code(),
+            absl::StatusCode::kUnavailable);
+  gallery_.Load({});
+  EXPECT_THAT(states, ElementsAre(IndexState::kLoading, IndexState::kServing));
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr snapshot,
+                       gallery_.Snapshot("cups", 600));
+  EXPECT_EQ(snapshot->size, 600);
+  EXPECT_EQ(snapshot->generation, 600);
+  EXPECT_EQ(ReasonOf(gallery_.Snapshot("jugs", 0).status()),
+            ErrorReason::kCollectionNotFound);
+  gallery_.Close();
+  EXPECT_EQ(states.back(), IndexState::kClosed);
+}
+
+TEST_F(GalleryTest, AppliesChangesInTheOrderOfTheirGenerations) {
+  const CollectionRecord cups = Insert("cups", 0);
+  gallery_.Load({});
+  const int64_t put = Put(cups, "a");
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted deleted,
+                       catalog_.DeleteShape({"cups", "a", "", {}}));
+  gallery_.Follow("cups", cups.uid, deleted.generation, nullptr);
+  EXPECT_EQ(SizeOf("cups"), 0);
+  // The earlier write is told last: the shape must not come back.
+  gallery_.Follow("cups", cups.uid, put, nullptr);
+  EXPECT_EQ(SizeOf("cups"), 0);
+  EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->generation,
+            deleted.generation);
+}
+
+TEST_F(GalleryTest, LeavesOutDamagedShapesAndCountsThem) {
+  Insert("cups", 3);
+  Insert("jugs", 1);
+  catalog_.DamageGraph("cups", "s1");
+  gallery_.Load({});
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr snapshot,
+                       gallery_.Snapshot("cups", 0));
+  EXPECT_EQ(snapshot->size, 2);
+  EXPECT_EQ(snapshot->damaged_shapes, 1);
+  EXPECT_EQ(SizeOf("jugs"), 1);
+  const std::vector<CollectionHealth> health = gallery_.Health();
+  ASSERT_EQ(health.size(), 2U);
+  EXPECT_EQ(health[0].id, "cups");
+  EXPECT_TRUE(health[0].loaded);
+  EXPECT_EQ(health[0].damaged_shapes, 1);
+}
+
+TEST_F(GalleryTest, LeavesOutGraphsOfAnotherVersion) {
+  const CollectionRecord cups = Insert("cups", 1);
+  ShapePut old = SamplePut(cups, "old", 2);
+  old.graph_version = kShapeGraphVersion + 1;
+  ASSERT_THAT(catalog_.PutShape(old), IsOk());
+  gallery_.Load({});
+  EXPECT_EQ(SizeOf("cups"), 1);
+  EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->outdated_shapes, 1);
+}
+
+TEST_F(GalleryTest, IgnoresNewsOfACollectionThatIsGone) {
+  const CollectionRecord old = Insert("cups", 1);
+  gallery_.Load({});
+  ASSERT_THAT(catalog_.DeleteCollection({"cups", true, ""}), IsOk());
+  gallery_.Remove(old.uid);
+  const CollectionRecord cups = Insert("cups", 0);
+  gallery_.Add(cups);
+  gallery_.Follow("cups", old.uid, 9, nullptr);
+  EXPECT_EQ(SizeOf("cups"), 0);
+  EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->generation, 0);
+}
+
+TEST_F(GalleryTest, StopsLoadingWhenAsked) {
+  Insert("cups", 10);
+  const StopToken stopped({}, absl::UnixEpoch());
+  gallery_.Load(stopped);
+  EXPECT_EQ(gallery_.state(), IndexState::kLoading);
+  EXPECT_FALSE(gallery_.WaitUntilServing(stopped).ok());
+}
+
+}  // namespace
+}  // namespace argmesh

@@ -1,0 +1,208 @@
+#include "server/engine/shape_search.h"
+
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/time/clock.h"
+#include "core/graph/graph_codec.h"
+#include "tests/support/catalog_samples.h"
+#include "tests/support/random_graph.h"
+#include "tests/unit/server/engine/engine_bench.h"
+
+namespace argmesh {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<std::string> IdsOf(const SearchAnswer& answer) {
+  std::vector<std::string> ids;
+  for (const SearchMatch& match : answer.matches) ids.push_back(match.shape.id);
+  return ids;
+}
+
+class ShapeSearchTest : public EngineTest {
+ protected:
+  void AddThree() {
+    ASSERT_THAT(engine_->AddShape(Named("thin"), TorusOff(2)), IsOk());
+    ASSERT_THAT(engine_->AddShape(Named("thick"), TorusOff(4)), IsOk());
+    ASSERT_THAT(engine_->AddShape(Named("bell"), DumbbellOff()), IsOk());
+  }
+};
+
+TEST_F(ShapeSearchTest, FindsTheSameMeshFirstWithAFullScore) {
+  AddThree();
+  for (const MatchMode mode : {MatchMode::kGlobal, MatchMode::kPartial}) {
+    SearchQuery query = SearchFor(MeshBytes{DumbbellOff()});
+    query.mode = mode;
+    ASSERT_OK_AND_ASSIGN(const SearchAnswer answer, engine_->Search(query));
+    ASSERT_EQ(answer.matches.size(), 3U);
+    EXPECT_EQ(answer.matches[0].shape.id, "bell");
+    EXPECT_EQ(answer.matches[0].match.score, 1);
+    EXPECT_FALSE(answer.matches[0].match.pairs.empty());
+    EXPECT_GE(answer.matches[1].match.score, answer.matches[2].match.score);
+    EXPECT_EQ(answer.stats.generation, 3);
+    EXPECT_EQ(answer.stats.shapes_matched, 3);
+    EXPECT_TRUE(answer.stats.exhaustive);
+  }
+}
+
+TEST_F(ShapeSearchTest, AnswersAStoredQueryAndAGraphLikeTheMesh) {
+  AddThree();
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer by_mesh,
+                       engine_->Search(SearchFor(MeshBytes{TorusOff(2)})));
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer by_id,
+                       engine_->Search(SearchFor(ShapeRef{"cups", "thin"})));
+  ASSERT_OK_AND_ASSIGN(const ShapeGraphAnswer stored,
+                       engine_->GetGraph({"cups", "thin"}, false));
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer by_graph,
+                       engine_->Search(SearchFor(stored.graph)));
+  ASSERT_EQ(by_mesh.matches.size(), 3U);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(by_id.matches[i].shape.id, by_mesh.matches[i].shape.id);
+    EXPECT_EQ(by_id.matches[i].match.score, by_mesh.matches[i].match.score);
+    EXPECT_EQ(by_graph.matches[i].match.score, by_mesh.matches[i].match.score);
+  }
+}
+
+TEST_F(ShapeSearchTest, KeepsToLimitScoreAndExclusion) {
+  AddThree();
+  SearchQuery query = SearchFor(ShapeRef{"cups", "thin"});
+  query.limit = 1;
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre("thin"));
+  query.exclude_query = true;
+  query.limit = 10;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer others, engine_->Search(query));
+  EXPECT_EQ(others.matches.size(), 2U);
+  EXPECT_EQ(others.stats.shapes_considered, 2);
+  query.exclude_query = false;
+  query.min_score = 1;
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre("thin"));
+  query.min_score = 0;
+  query.min_query_coverage = 1;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer covered, engine_->Search(query));
+  for (const SearchMatch& match : covered.matches) {
+    EXPECT_GE(match.match.query_coverage, 1);
+  }
+  query.correspondence = false;
+  query.query_graph = true;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer bare, engine_->Search(query));
+  EXPECT_TRUE(bare.matches.at(0).match.pairs.empty());
+  EXPECT_TRUE(bare.query_graph.has_value());
+}
+
+TEST_F(ShapeSearchTest, BreaksTiesById) {
+  for (const char* id : {"c", "a", "b"}) {
+    ASSERT_THAT(engine_->AddShape(Named(id), TorusOff(3)), IsOk());
+  }
+  SearchQuery query = SearchFor(ShapeRef{"cups", "c"});
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()),
+              ElementsAre("a", "b", "c"));
+  query.limit = 2;
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre("a", "b"));
+}
+
+TEST_F(ShapeSearchTest, SeesEveryWriteThatReturned) {
+  const SearchQuery query = SearchFor(MeshBytes{TorusOff(3)});
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre());
+  ASSERT_OK_AND_ASSIGN(const AddedShape added,
+                       engine_->AddShape(Named("a"), TorusOff(3)));
+  SearchQuery fresh = query;
+  fresh.min_generation = added.record.generation;
+  EXPECT_THAT(IdsOf(engine_->Search(fresh).value()), ElementsAre("a"));
+  ShapePatch patch;
+  patch.collection = "cups";
+  patch.id = "a";
+  patch.display_name = "A";
+  ASSERT_THAT(engine_->UpdateShape(patch), IsOk());
+  EXPECT_EQ(engine_->Search(query).value().matches.at(0).shape.display_name,
+            "A");
+  ASSERT_THAT(engine_->DeleteShape({{"cups", "a"}, "", {}}), IsOk());
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre());
+  fresh.min_generation = 4;
+  EXPECT_EQ(ReasonOrOk(engine_->Search(fresh)),
+            ErrorReason::kGenerationNotReached);
+}
+
+TEST_F(ShapeSearchTest, ForgetsADeletedCollection) {
+  AddThree();
+  EXPECT_EQ(ReasonOrOk(engine_->DeleteCollection({"cups", false, ""})),
+            ErrorReason::kCollectionNotEmpty);
+  ASSERT_THAT(engine_->DeleteCollection({"cups", true, ""}), IsOk());
+  EXPECT_EQ(meshes_->size(), 0U);
+  const SearchQuery query = SearchFor(MeshBytes{TorusOff(3)});
+  EXPECT_EQ(ReasonOrOk(engine_->Search(query)),
+            ErrorReason::kCollectionNotFound);
+  NewCollection cups;
+  cups.id = "cups";
+  cups.settings = QuickSettings();
+  ASSERT_THAT(engine_->CreateCollection(cups), IsOk());
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()), ElementsAre());
+}
+
+TEST_F(ShapeSearchTest, RefusesGraphsThatCannotBeCompared) {
+  AddThree();
+  NewCollection other;
+  other.id = "other";
+  other.settings = QuickSettings();
+  other.settings.vertex_budget = 301;
+  ASSERT_THAT(engine_->CreateCollection(other), IsOk());
+  SearchQuery query = SearchFor(ShapeRef{"cups", "thin"});
+  query.collection = "other";
+  EXPECT_EQ(ReasonOrOk(engine_->Search(query)),
+            ErrorReason::kGraphVersionMismatch);
+  ShapeGraph broken = MakeRandomGraph(1);
+  broken.levels[1].nodes[0].parent = 99;
+  EXPECT_EQ(ReasonOrOk(engine_->Search(SearchFor(broken))),
+            ErrorReason::kGraphInvalid);
+  EXPECT_EQ(ReasonOrOk(engine_->Search(SearchFor(ShapeRef{"cups", "x"}))),
+            ErrorReason::kShapeNotFound);
+}
+
+TEST_F(ShapeSearchTest, ComparesAnyTwoShapes) {
+  AddThree();
+  CompareQuery query;
+  query.collection = "cups";
+  query.a = ShapeRef{"cups", "thin"};
+  query.b = MeshBytes{TorusOff(2)};
+  query.graphs = true;
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes same, engine_->Compare(query));
+  EXPECT_EQ(same.match.score, 1);
+  EXPECT_EQ(same.a->graph, same.b->graph);
+  query.b = ShapeRef{"cups", "bell"};
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes other, engine_->Compare(query));
+  EXPECT_LT(other.match.score, 1);
+}
+
+TEST_F(ShapeSearchTest, StopsWithinFiftyMillisecondsOfACancellation) {
+  // Enough random graphs that a search takes far longer than the wait.
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord cups,
+                       engine_->GetCollection("cups"));
+  for (int i = 0; i < 3000; ++i) {
+    ASSERT_THAT(catalog_->PutShape(SamplePut(cups, "s" + std::to_string(i),
+                                             static_cast<uint64_t>(i % 10))),
+                IsOk());
+  }
+  ASSERT_THAT(engine_->AddShape(Named("last"), TorusOff(3)), IsOk());
+  std::stop_source source;
+  absl::Time asked;
+  std::thread canceller([&] {
+    absl::SleepFor(absl::Milliseconds(20));
+    asked = absl::Now();
+    source.request_stop();
+  });
+  const absl::Status status =
+      engine_
+          ->Search(SearchFor(MakeRandomGraph(77)),
+                   StopToken(source.get_token(), absl::InfiniteFuture()))
+          .status();
+  const absl::Time stopped = absl::Now();
+  canceller.join();
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kCancelled);
+  // Ten times the promise, for a machine that does other things too.
+  EXPECT_LT(stopped - asked, absl::Milliseconds(500));
+}
+
+}  // namespace
+}  // namespace argmesh

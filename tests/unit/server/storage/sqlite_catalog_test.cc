@@ -1,0 +1,254 @@
+#include "server/storage/sqlite_catalog.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/engine/error_reason.h"
+#include "server/storage/schema.h"
+#include "tests/support/catalog_samples.h"
+#include "tests/support/status_matchers.h"
+#include "tests/support/temporary_directory.h"
+
+namespace argmesh {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr DataDirectoryOptions kDirectory{.min_free_bytes = 0,
+                                          .allow_network_file_system = true};
+
+absl::StatusOr<std::unique_ptr<SqliteCatalog>> OpenAt(const fs::path& path) {
+  ARGMESH_ASSIGN_OR_RETURN(std::shared_ptr<DataDirectory> directory,
+                           DataDirectory::Open(path, kDirectory));
+  return SqliteCatalog::Open(std::move(directory));
+}
+
+// Runs SQL on the database of a catalog that is closed.
+void Tamper(const fs::path& data, const std::string& sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open((data / "catalog.db").c_str(), &db), SQLITE_OK);
+  char* error = nullptr;
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK)
+      << error;
+  sqlite3_close(db);
+}
+
+class SqliteCatalogTest : public ::testing::Test {
+ protected:
+  void Open() {
+    absl::StatusOr<std::unique_ptr<SqliteCatalog>> catalog = OpenAt(data_);
+    ASSERT_TRUE(catalog.ok()) << catalog.status();
+    catalog_ = *std::move(catalog);
+  }
+  void Close() {
+    ASSERT_THAT(catalog_->Close(), IsOk());
+    catalog_.reset();
+  }
+  // A catalog with the collection "cups" and shapes "s0", "s1", ...
+  void Fill(int shapes) {
+    Open();
+    cups_ = SampleCollection("cups");
+    ASSERT_THAT(catalog_->InsertCollection(cups_, {}), IsOk());
+    for (int i = 0; i < shapes; ++i) {
+      ASSERT_THAT(catalog_->PutShape(SamplePut(cups_, "s" + std::to_string(i),
+                                               static_cast<uint64_t>(i))),
+                  IsOk());
+    }
+  }
+
+  TemporaryDirectory folder_;
+  fs::path data_ = folder_.path() / "data";
+  std::unique_ptr<SqliteCatalog> catalog_;
+  CollectionRecord cups_;
+};
+
+TEST_F(SqliteCatalogTest, HasEverythingAgainAfterARestart) {
+  Fill(3);
+  ASSERT_OK_AND_ASSIGN(const ShapeRecord before,
+                       catalog_->GetShape("cups", "s1"));
+  Close();
+  Open();
+  ASSERT_OK_AND_ASSIGN(const ShapeRecord after,
+                       catalog_->GetShape("cups", "s1"));
+  EXPECT_TRUE(SameRecord(before, after));
+  ASSERT_OK_AND_ASSIGN(const StoredGraph graph,
+                       catalog_->ReadGraph("cups", "s2", true));
+  EXPECT_EQ(graph.labels, SamplePut(cups_, "s2", 2).labels);
+}
+
+TEST_F(SqliteCatalogTest, RefusesASecondOpenOfItsFolder) {
+  Fill(0);
+  EXPECT_THAT(OpenAt(data_), StatusIs(absl::StatusCode::kFailedPrecondition,
+                                      HasSubstr("in use by process " +
+                                                std::to_string(getpid()))));
+}
+
+TEST_F(SqliteCatalogTest, RefusesADatabaseOfANewerProgram) {
+  Fill(1);
+  Close();
+  Tamper(data_, "PRAGMA user_version=1000");
+  EXPECT_THAT(OpenAt(data_), StatusIs(absl::StatusCode::kFailedPrecondition,
+                                      HasSubstr("schema version 1000")));
+}
+
+TEST_F(SqliteCatalogTest, RefusesADatabaseOfSomethingElse) {
+  Fill(1);
+  Close();
+  Tamper(data_, "PRAGMA application_id=7");
+  EXPECT_THAT(OpenAt(data_), StatusIs(absl::StatusCode::kFailedPrecondition,
+                                      HasSubstr("no argmesh database")));
+}
+
+TEST_F(SqliteCatalogTest, ReportsADamagedGraphAndServesTheOthers) {
+  Fill(3);
+  Close();
+  Tamper(data_,
+         "UPDATE graph SET arg = zeroblob(length(arg)) WHERE shape_id = "
+         "(SELECT id FROM shape WHERE name = 's1')");
+  Open();
+  const absl::Status damaged =
+      catalog_->ReadGraph("cups", "s1", false).status();
+  EXPECT_THAT(damaged,
+              StatusIs(absl::StatusCode::kDataLoss, HasSubstr("shape s1")));
+  EXPECT_EQ(ReasonOf(damaged), ErrorReason::kStoredDataDamaged);
+  EXPECT_THAT(catalog_->ReadGraph("cups", "s2", true), IsOk());
+  ASSERT_OK_AND_ASSIGN(const std::vector<ScannedGraph> scanned,
+                       catalog_->ScanGraphs(cups_.uid, "", 10));
+  ASSERT_EQ(scanned.size(), 3U);
+  EXPECT_THAT(scanned[0].status, IsOk());
+  EXPECT_THAT(scanned[1].status,
+              StatusIs(absl::StatusCode::kDataLoss, HasSubstr("checksum")));
+  EXPECT_EQ(scanned[1].record.id, "s1");
+  EXPECT_THAT(scanned[2].status, IsOk());
+}
+
+TEST_F(SqliteCatalogTest, ReportsRowsThatCannotBeRead) {
+  struct Case {
+    const char* what;
+    const char* sql;
+  };
+  for (const Case& c : std::vector<Case>{
+           {"labels cut", "UPDATE face_label SET labels = x'00'"},
+           {"labels gone", "DELETE FROM face_label"},
+           {"a lying size",
+            "UPDATE face_label SET raw_bytes = 9000000000000000000"},
+           {"graph gone", "DELETE FROM graph"},
+           {"details cut", "UPDATE shape SET details = x'01'"},
+           {"no object", "UPDATE shape SET metadata = '[1]'"},
+           {"not text", "UPDATE shape SET metadata = '{\"a\":1}'"}}) {
+    const TemporaryDirectory folder;
+    data_ = folder.path() / "data";
+    Fill(1);
+    Close();
+    Tamper(data_, c.sql);
+    Open();
+    EXPECT_THAT(catalog_->ReadGraph("cups", "s0", true),
+                StatusIs(absl::StatusCode::kDataLoss, HasSubstr("s0")))
+        << c.what;
+    Close();
+  }
+}
+
+TEST_F(SqliteCatalogTest, FindsBrokenReferencesAfterAnUncleanStop) {
+  Fill(1);
+  Close();
+  Tamper(data_, "DELETE FROM mesh");
+  ASSERT_TRUE(fs::remove(data_ / "clean"));
+  EXPECT_THAT(OpenAt(data_),
+              StatusIs(absl::StatusCode::kDataLoss, HasSubstr("table shape")));
+}
+
+TEST_F(SqliteCatalogTest, OpensACopyOfItsFolderTakenWhileItWrites) {
+  Fill(0);
+  std::atomic<int> acknowledged{0};
+  std::atomic<bool> stop{false};
+  std::thread writer([&] {
+    for (int i = 0; !stop; ++i) {
+      if (catalog_
+              ->PutShape(SamplePut(cups_, "s" + std::to_string(i),
+                                   static_cast<uint64_t>(i % 5)))
+              .ok()) {
+        acknowledged = i + 1;
+      }
+    }
+  });
+  while (acknowledged < 20) std::this_thread::yield();
+  // As a power cut would leave it: the log first, so that the database is not
+  // newer than its log. Nothing is checkpointed meanwhile.
+  const fs::path copy = folder_.path() / "copy";
+  fs::create_directory(copy);
+  const int before = acknowledged;
+  fs::copy_file(data_ / "catalog.db", copy / "catalog.db");
+  fs::copy_file(data_ / "catalog.db-wal", copy / "catalog.db-wal");
+  stop = true;
+  writer.join();
+  Close();
+
+  data_ = copy;
+  Open();
+  ASSERT_OK_AND_ASSIGN(const std::vector<ShapeRecord> shapes,
+                       catalog_->ListShapes("cups", "", 1'000'000));
+  EXPECT_GE(static_cast<int>(shapes.size()), before);
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord cups,
+                       catalog_->GetCollection("cups"));
+  EXPECT_EQ(cups.shape_count, static_cast<int64_t>(shapes.size()));
+  EXPECT_EQ(cups.generation, cups.shape_count);
+  for (const ShapeRecord& shape : shapes) {
+    EXPECT_THAT(catalog_->ReadGraph("cups", shape.id, true), IsOk());
+  }
+}
+
+TEST_F(SqliteCatalogTest, RefusesToGrowWhenTheDiskIsLow) {
+  Fill(1);
+  Close();
+  ASSERT_OK_AND_ASSIGN(
+      std::shared_ptr<DataDirectory> directory,
+      DataDirectory::Open(data_, {.min_free_bytes = int64_t{1} << 60,
+                                  .allow_network_file_system = true}));
+  ASSERT_OK_AND_ASSIGN(catalog_, SqliteCatalog::Open(std::move(directory)));
+  const absl::Status full =
+      catalog_->PutShape(SamplePut(cups_, "s1", 1)).status();
+  EXPECT_EQ(ReasonOf(full), ErrorReason::kStoreFull);
+  EXPECT_THAT(catalog_->GetShape("cups", "s0"), IsOk());
+  EXPECT_THAT(catalog_->DeleteShape({"cups", "s0", "", {}}), IsOk());
+}
+
+TEST_F(SqliteCatalogTest, TakesWritesFromManyThreadsAtOnce) {
+  Fill(0);
+  constexpr int kThreads = 8;
+  constexpr int kEach = 25;
+  std::vector<std::thread> threads;
+  std::atomic<int> failed{0};
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < kEach; ++i) {
+        const std::string id =
+            "t" + std::to_string(t) + "-" + std::to_string(i);
+        if (!catalog_->PutShape(SamplePut(cups_, id, 1)).ok()) ++failed;
+        if (!catalog_->GetShape("cups", id).ok()) ++failed;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(failed, 0);
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord cups,
+                       catalog_->GetCollection("cups"));
+  EXPECT_EQ(cups.generation, kThreads * kEach);
+  ASSERT_OK_AND_ASSIGN(
+      const std::vector<ShapeChange> changes,
+      catalog_->ReadChanges(cups_.uid, 0, 2 * kThreads * kEach));
+  for (size_t i = 0; i < changes.size(); ++i) {
+    EXPECT_EQ(changes[i].generation, static_cast<int64_t>(i) + 1);
+  }
+}
+
+}  // namespace
+}  // namespace argmesh
