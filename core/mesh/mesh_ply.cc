@@ -61,12 +61,13 @@ class PlyReader {
   absl::StatusOr<ParsedMesh> Read() &&;
 
  private:
-  absl::Status CheckElement(const PlyElement& element);
+  absl::Status CheckElement(const PlyElement& element, PlyKind kind);
   absl::Status CheckRoles(const PlyElement& element, PlyKind kind,
                           const std::vector<PlyRole>& roles);
   absl::Status ReadElement(const PlyElement& element);
   absl::Status ReadItem(const PlyElement& element, PlyKind kind,
                         const std::vector<PlyRole>& roles);
+  absl::Status ReadScalar(const PlyProperty& property, PlyRole role);
   absl::Status ReadList(const PlyProperty& property, PlyKind kind,
                         PlyRole role);
   absl::Status AddItem(PlyKind kind);
@@ -83,8 +84,13 @@ class PlyReader {
 };
 
 template <typename Source>
-absl::Status PlyReader<Source>::CheckElement(const PlyElement& element) {
+absl::Status PlyReader<Source>::CheckElement(const PlyElement& element,
+                                             PlyKind kind) {
   if (element.count == 0) return absl::OkStatus();
+  if (kind == PlyKind::kFace) {
+    ARGMESH_RETURN_IF_ERROR(
+        source_.Located(assembly_.CheckFaceCount(element.count)));
+  }
   int64_t item_bytes = 0;
   for (const PlyProperty& property : element.properties) {
     item_bytes += source_.MinBytes(property.count_type.value_or(property.type));
@@ -153,22 +159,25 @@ absl::Status PlyReader<Source>::ReadList(const PlyProperty& property,
 }
 
 template <typename Source>
+absl::Status PlyReader<Source>::ReadScalar(const PlyProperty& property,
+                                           PlyRole role) {
+  if (role == PlyRole::kSkipped) return source_.Skip(property.type, 1);
+  const size_t axis = role == PlyRole::kX ? 0 : role == PlyRole::kY ? 1 : 2;
+  ARGMESH_ASSIGN_OR_RETURN(position_[axis],
+                           source_.ReadCoordinate(property.type));
+  return absl::OkStatus();
+}
+
+template <typename Source>
 absl::Status PlyReader<Source>::ReadItem(const PlyElement& element,
                                          PlyKind kind,
                                          const std::vector<PlyRole>& roles) {
   corners_.clear();
   for (size_t i = 0; i < roles.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const PlyRole role = roles[i];
-    if (property.count_type) {
-      ARGMESH_RETURN_IF_ERROR(ReadList(property, kind, role));
-    } else if (role == PlyRole::kSkipped) {
-      ARGMESH_RETURN_IF_ERROR(source_.Skip(property.type, 1));
-    } else {
-      const size_t axis = role == PlyRole::kX ? 0 : role == PlyRole::kY ? 1 : 2;
-      ARGMESH_ASSIGN_OR_RETURN(position_[axis],
-                               source_.ReadCoordinate(property.type));
-    }
+    ARGMESH_RETURN_IF_ERROR(property.count_type
+                                ? ReadList(property, kind, roles[i])
+                                : ReadScalar(property, roles[i]));
   }
   ARGMESH_RETURN_IF_ERROR(source_.Located(AddItem(kind)));
   return source_.EndItem();
@@ -203,11 +212,7 @@ absl::Status PlyReader<Source>::AddItem(PlyKind kind) {
 template <typename Source>
 absl::Status PlyReader<Source>::ReadElement(const PlyElement& element) {
   const PlyKind kind = KindOf(element);
-  if (kind == PlyKind::kFace) {
-    ARGMESH_RETURN_IF_ERROR(
-        source_.Located(assembly_.CheckFaceCount(element.count)));
-  }
-  ARGMESH_RETURN_IF_ERROR(CheckElement(element));
+  ARGMESH_RETURN_IF_ERROR(CheckElement(element, kind));
   if (element.count == 0) return absl::OkStatus();
   const std::vector<PlyRole> roles = RolesOf(kind, element);
   ARGMESH_RETURN_IF_ERROR(CheckRoles(element, kind, roles));

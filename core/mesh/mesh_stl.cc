@@ -90,6 +90,7 @@ class AsciiStlParser {
  private:
   absl::Status ParseSolid();
   absl::Status ParseFacet();
+  absl::StatusOr<int> ParseLoop();
   absl::Status ParseVertex();
   absl::Status Expect(std::string_view keyword);
 
@@ -122,12 +123,8 @@ absl::Status AsciiStlParser::ParseVertex() {
   return absl::OkStatus();
 }
 
-// After "facet": normal x y z, outer loop, the corners, endloop, endfacet.
-absl::Status AsciiStlParser::ParseFacet() {
-  ARGMESH_RETURN_IF_ERROR(Expect("normal"));
-  for (int i = 0; i < 3; ++i) scanner_.Next();
-  ARGMESH_RETURN_IF_ERROR(Expect("outer"));
-  ARGMESH_RETURN_IF_ERROR(Expect("loop"));
+// After "loop": the corners and "endloop". Gives their number.
+absl::StatusOr<int> AsciiStlParser::ParseLoop() {
   int corners = 0;
   std::string word = LowerCase(scanner_.Next());
   for (; word == "vertex"; word = LowerCase(scanner_.Next())) {
@@ -137,12 +134,19 @@ absl::Status AsciiStlParser::ParseFacet() {
     }
     ARGMESH_RETURN_IF_ERROR(ParseVertex());
   }
-  if (word != "endloop") {
-    return scanner_.Malformed(absl::StrFormat(
-        "facet %d: %s where vertex or endloop is expected",
-        facets_.num_facets(),
-        word.empty() ? "the end of the bytes" : QuoteWord(word)));
-  }
+  if (word == "endloop") return corners;
+  return scanner_.Malformed(absl::StrFormat(
+      "facet %d: %s where vertex or endloop is expected", facets_.num_facets(),
+      word.empty() ? "the end of the bytes" : QuoteWord(word)));
+}
+
+// After "facet": normal x y z, outer loop, the corners, endloop, endfacet.
+absl::Status AsciiStlParser::ParseFacet() {
+  ARGMESH_RETURN_IF_ERROR(Expect("normal"));
+  for (int i = 0; i < 3; ++i) scanner_.Next();
+  ARGMESH_RETURN_IF_ERROR(Expect("outer"));
+  ARGMESH_RETURN_IF_ERROR(Expect("loop"));
+  ARGMESH_ASSIGN_OR_RETURN(const int corners, ParseLoop());
   ARGMESH_RETURN_IF_ERROR(Expect("endfacet"));
   if (corners < 3) {
     facets_.coordinates.resize(facets_.coordinates.size() -
