@@ -28,6 +28,26 @@ std::vector<float> Similarities(const std::vector<float>& a,
   return similarities;
 }
 
+// How well the distances from matched pair i to the other matched pairs agree,
+// weighted like the pairs themselves: 0 .. 1, 1 for a pair alone.
+double EdgeConsistency(const PackedLevel& rows, const PackedLevel& cols,
+                       const std::vector<int32_t>& assigned, size_t i) {
+  double agreement = 0;
+  double total = 0;
+  const auto x = static_cast<size_t>(assigned[i]);
+  for (size_t j = 0; j < assigned.size(); ++j) {
+    if (j == i) continue;
+    const auto y = static_cast<size_t>(assigned[j]);
+    const float weight = rows.weight[j] + cols.weight[y];
+    const float difference =
+        std::abs(rows.Distance(i, j) - cols.Distance(x, y));
+    agreement +=
+        static_cast<double>(weight * std::exp(difference * (-1 / kEdgeScale)));
+    total += static_cast<double>(weight);
+  }
+  return total > 0 ? agreement / total : 1;
+}
+
 }  // namespace
 
 std::vector<float> NodeSimilarities(const PackedLevel& a, const PackedLevel& b,
@@ -60,8 +80,10 @@ double ScoreLevels(const PackedLevel& a, const PackedLevel& b, RowKind kind) {
       SolveAssignment(profits, rows.num_nodes(), cols.num_nodes());
   double score = 0;
   for (size_t i = 0; i < assigned.size(); ++i) {
-    score +=
+    const double profit =
         static_cast<double>(profits[i * m + static_cast<size_t>(assigned[i])]);
+    const double edges = EdgeConsistency(rows, cols, assigned, i);
+    score += profit * (1 - kEdgeShare + kEdgeShare * edges);
   }
   return std::min(score, 1.0);
 }

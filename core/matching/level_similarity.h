@@ -12,6 +12,11 @@ namespace argmesh {
 // The distance at which the similarity of two nodes falls to 1/e.
 inline constexpr float kSimilarityScale = 0.4F;
 
+// A matched pair's part of the score depends by this share on its edges: on
+// exp(-|difference of geodesic distances| / kEdgeScale) to the other pairs.
+inline constexpr double kEdgeShare = 0.2;
+inline constexpr float kEdgeScale = 0.15F;  // sqrt(area of the shape)
+
 // exp(-d / kSimilarityScale) of all pairs of nodes, a row for each node of
 // `a`. Transposed to the bit when the levels are swapped.
 std::vector<float> NodeSimilarities(const PackedLevel& a, const PackedLevel& b,
