@@ -4,6 +4,7 @@
 // The cost of an edge is its squared length + quadric_weight * the mean
 // squared distance of the merged vertex to the planes it stands for; planes
 // through boundary edges hold the boundary in place.
+// Far above the target, costs within an eighth of an octave count as equal.
 //
 // Source   Garland, Heckbert, "Surface Simplification Using Quadric Error
 //          Metrics", SIGGRAPH 1997.
