@@ -31,6 +31,9 @@ absl::Status ParseError(const absl::Status& status, MeshFormat format) {
       message.find("begins no") != std::string::npos) {
     return MakeError(ErrorReason::kMeshFormatUnknown, message);
   }
+  if (message.find("no faces: ") != std::string::npos) {
+    return MakeError(ErrorReason::kMeshEmpty, message);
+  }
   ErrorMetadata where;
   if (const std::string line = NumberAfter(message, "line"); !line.empty()) {
     where["line"] = line;

@@ -1,7 +1,7 @@
 #include "server/engine/shape_ranker.h"
 
 #include <algorithm>
-#include <atomic>
+#include <iterator>
 #include <utility>
 
 #include "core/base/status_macros.h"
@@ -23,6 +23,18 @@ void KeepBest(std::vector<RankedShape>& shapes, size_t limit) {
   shapes.resize(kept);
 }
 
+MatchOptions ScanOptions(const RankQuery& query) {
+  MatchOptions options;
+  options.attributes = query.attributes;
+  // The coverage of a global match is that of the correspondence at its best
+  // level, so a bound on it needs all of both.
+  const bool coverage =
+      query.mode == MatchMode::kGlobal && query.min_query_coverage > 0;
+  options.correspondence = coverage;
+  options.all_level_scores = coverage;
+  return options;
+}
+
 class ExactRanker : public ShapeRanker {
  public:
   explicit ExactRanker(ComputePool& pool) : pool_(pool) {}
@@ -30,49 +42,44 @@ class ExactRanker : public ShapeRanker {
   absl::StatusOr<Ranking> Rank(const GallerySnapshot& gallery,
                                const RankQuery& query,
                                const StopToken& stop) const override {
-    const size_t limit = static_cast<size_t>(query.limit);
-    MatchOptions options;
-    options.attributes = query.attributes;
-    options.all_level_scores = false;
-    // The coverage of a global match comes with its correspondence.
-    options.correspondence =
-        query.mode == MatchMode::kGlobal && query.min_query_coverage > 0;
-    std::vector<std::vector<RankedShape>> best(gallery.blocks.size());
-    std::atomic<int64_t> matched{0};
-    std::atomic<bool> stopped{false};
-    pool_.ParallelFor(
-        WorkClass::kSearch, static_cast<int64_t>(gallery.blocks.size()),
-        [&](int64_t b) {
-          const auto at = static_cast<size_t>(b);
-          for (const GalleryEntryPtr& entry : *gallery.blocks[at]) {
-            if (entry->record.id == query.exclude_id) continue;
-            if (stopped || !stop.Check().ok()) {
-              stopped = true;
-              return;
-            }
-            const MatchResult match =
-                MatchGraphs(query.mode, query.graph, entry->graph, options);
-            ++matched;
-            if (match.score >= query.min_score &&
-                match.query_coverage >= query.min_query_coverage) {
-              best[at].push_back({entry, match.score});
-            }
-          }
-          KeepBest(best[at], limit);
-        });
-    if (stopped) ARGMESH_RETURN_IF_ERROR(stop.Check());
+    std::vector<Ranking> parts(gallery.blocks.size());
+    pool_.ParallelFor(WorkClass::kSearch,
+                      static_cast<int64_t>(gallery.blocks.size()),
+                      [&](int64_t b) {
+                        const auto at = static_cast<size_t>(b);
+                        RankBlock(*gallery.blocks[at], query, stop, parts[at]);
+                      });
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
     Ranking ranking;
-    for (std::vector<RankedShape>& shapes : best) {
-      std::move(shapes.begin(), shapes.end(),
+    for (Ranking& part : parts) {
+      std::move(part.shapes.begin(), part.shapes.end(),
                 std::back_inserter(ranking.shapes));
+      ranking.matched += part.matched;
     }
-    KeepBest(ranking.shapes, limit);
-    ranking.considered = matched;
-    ranking.matched = matched;
+    KeepBest(ranking.shapes, static_cast<size_t>(query.limit));
+    ranking.considered = ranking.matched;
     return ranking;
   }
 
  private:
+  // Incomplete once `stop` says so, which Rank tells.
+  static void RankBlock(const GalleryBlock& block, const RankQuery& query,
+                        const StopToken& stop, Ranking& part) {
+    const MatchOptions options = ScanOptions(query);
+    for (const GalleryEntryPtr& entry : block) {
+      if (entry->record.id == query.exclude_id) continue;
+      if (!stop.Check().ok()) return;
+      const MatchResult match =
+          MatchGraphs(query.mode, query.graph, entry->graph, options);
+      ++part.matched;
+      if (match.score >= query.min_score &&
+          match.query_coverage >= query.min_query_coverage) {
+        part.shapes.push_back({entry, match.score});
+      }
+    }
+    KeepBest(part.shapes, static_cast<size_t>(query.limit));
+  }
+
   ComputePool& pool_;
 };
 

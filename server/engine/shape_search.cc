@@ -26,6 +26,22 @@ class Stopwatch {
   absl::Time last_ = absl::Now();
 };
 
+RankQuery RankQueryOf(const SearchQuery& query, const MatchableGraph& graph) {
+  RankQuery rank{.graph = graph,
+                 .mode = query.mode,
+                 .attributes = query.attributes,
+                 .limit = query.limit,
+                 .min_score = query.min_score,
+                 .min_query_coverage = query.min_query_coverage,
+                 .exclude_id = ""};
+  const auto* stored = std::get_if<ShapeRef>(&query.query);
+  if (query.exclude_query && stored != nullptr &&
+      stored->collection == query.collection) {
+    rank.exclude_id = stored->id;
+  }
+  return rank;
+}
+
 }  // namespace
 
 absl::StatusOr<ShapeGraph> ParseStoredGraph(const StoredGraph& stored) {
@@ -127,22 +143,11 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   ARGMESH_ASSIGN_OR_RETURN(QueryGraph resolved,
                            Resolve(query.query, gallery->settings, stop));
   const MatchableGraph graph(resolved.graph);
-  RankQuery rank{.graph = graph,
-                 .mode = query.mode,
-                 .attributes = query.attributes,
-                 .limit = query.limit,
-                 .min_score = query.min_score,
-                 .min_query_coverage = query.min_query_coverage,
-                 .exclude_id = ""};
-  if (const auto* stored = std::get_if<ShapeRef>(&query.query);
-      stored != nullptr && query.exclude_query &&
-      stored->collection == query.collection) {
-    rank.exclude_id = stored->id;
-  }
   SearchAnswer answer;
   answer.stats.query_time = stopwatch.Lap();
-  ARGMESH_ASSIGN_OR_RETURN(const Ranking ranking,
-                           ranker_->Rank(*gallery, rank, stop));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const Ranking ranking,
+      ranker_->Rank(*gallery, RankQueryOf(query, graph), stop));
   answer.stats.match_time = stopwatch.Lap();
   FillMatches(query, graph, ranking, stop, answer.matches);
   ARGMESH_RETURN_IF_ERROR(stop.Check());

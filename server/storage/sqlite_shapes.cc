@@ -118,6 +118,17 @@ absl::Status WriteGraph(SqliteConnection& connection, int64_t shape,
       .status();
 }
 
+// The mesh of a shape that was replaced or deleted, when it was the last.
+absl::StatusOr<std::vector<Sha256Digest>> DropMesh(SqliteConnection& connection,
+                                                   const ShapeRecord& gone) {
+  std::vector<Sha256Digest> unreferenced;
+  if (!gone.mesh_stored) return unreferenced;
+  ARGMESH_ASSIGN_OR_RETURN(const bool dropped,
+                           DeleteUnreferencedMesh(connection, gone.sha256));
+  if (dropped) unreferenced.push_back(gone.sha256);
+  return unreferenced;
+}
+
 absl::StatusOr<CollectionRow> FindCollectionOf(SqliteConnection& connection,
                                                const ShapePut& put) {
   ARGMESH_ASSIGN_OR_RETURN(
@@ -175,11 +186,9 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
                            WriteShapeRow(connection, collection.number,
                                          written.record, bytes, stored));
   ARGMESH_RETURN_IF_ERROR(WriteGraph(connection, shape, put, bytes));
-  if (stored && stored->record.mesh_stored) {
-    ARGMESH_ASSIGN_OR_RETURN(
-        const bool gone,
-        DeleteUnreferencedMesh(connection, stored->record.sha256));
-    if (gone) written.unreferenced.push_back(stored->record.sha256);
+  if (stored) {
+    ARGMESH_ASSIGN_OR_RETURN(written.unreferenced,
+                             DropMesh(connection, stored->record));
   }
   ARGMESH_RETURN_IF_ERROR(
       RememberRequest(connection, put.request, SerializeShapeWritten(written)));
@@ -234,12 +243,8 @@ absl::StatusOr<ShapeDeleted> Delete(SqliteConnection& connection,
   ARGMESH_RETURN_IF_ERROR(
       connection.Run("DELETE FROM shape WHERE id = ?", stored->number)
           .status());
-  if (stored->record.mesh_stored) {
-    ARGMESH_ASSIGN_OR_RETURN(
-        const bool gone,
-        DeleteUnreferencedMesh(connection, stored->record.sha256));
-    if (gone) deleted.unreferenced.push_back(stored->record.sha256);
-  }
+  ARGMESH_ASSIGN_OR_RETURN(deleted.unreferenced,
+                           DropMesh(connection, stored->record));
   ARGMESH_RETURN_IF_ERROR(RememberRequest(connection, removal.request,
                                           SerializeShapeDeleted(deleted)));
   return deleted;

@@ -62,8 +62,8 @@ class SqliteWriter {
 
  private:
   struct Item {
-    const Change* change;  // of a caller that waits
-    int64_t bytes;
+    const Change* change = nullptr;  // of a caller that waits
+    int64_t bytes = 0;
     std::promise<absl::Status> done;
   };
 

@@ -9,6 +9,25 @@
 #include "server/engine/record_codec.h"
 
 namespace argmesh {
+namespace {
+
+// What PutShape answers without writing.
+absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
+    const ShapePut& put, const std::optional<ShapeRecord>& stored) {
+  if (!stored) {
+    if (put.etag.empty()) return std::nullopt;
+    return ShapeNotFoundError(put.record.collection, put.record.id);
+  }
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(put.etag, ShapeEtag(*stored)));
+  if (put.if_exists == IfExists::kReplace) return std::nullopt;
+  if (put.if_exists == IfExists::kReturnSame &&
+      stored->sha256 == put.record.sha256) {
+    return ShapeWritten{*stored, put.collection_uid, false, {}};
+  }
+  return ShapeExistsError(put.record.collection, put.record.id);
+}
+
+}  // namespace
 
 absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
     std::string_view id) {
@@ -182,21 +201,12 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   if (collection->record.uid != put.collection_uid) {
     return CollectionNotFoundError(put.record.collection);
   }
+  const auto it = collection->shapes.find(put.record.id);
   std::optional<ShapeRecord> replaced;
-  if (const auto it = collection->shapes.find(put.record.id);
-      it != collection->shapes.end()) {
-    replaced = it->second.record;
-    ARGMESH_RETURN_IF_ERROR(CheckEtag(put.etag, ShapeEtag(*replaced)));
-    if (put.if_exists == IfExists::kReturnSame &&
-        replaced->sha256 == put.record.sha256) {
-      return ShapeWritten{*replaced, put.collection_uid, false, {}};
-    }
-    if (put.if_exists != IfExists::kReplace) {
-      return ShapeExistsError(put.record.collection, put.record.id);
-    }
-  } else if (!put.etag.empty()) {
-    return ShapeNotFoundError(put.record.collection, put.record.id);
-  }
+  if (it != collection->shapes.end()) replaced = it->second.record;
+  ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
+                           AnswerStored(put, replaced));
+  if (kept) return *std::move(kept);
   ShapeWritten written{put.record, put.collection_uid, true, {}};
   if (replaced) {
     written.record.uid = replaced->uid;
