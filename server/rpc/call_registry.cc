@@ -29,7 +29,19 @@ absl::Status CallRegistry::Enter(LiveCall* call) {
 void CallRegistry::Leave(LiveCall* call) {
   const std::lock_guard lock(mutex_);
   calls_.erase(call);
-  if (calls_.empty()) changed_.notify_all();
+  // Under the lock: the registry may be gone right after it.
+  changed_.notify_all();
+}
+
+void CallRegistry::Hold() {
+  const std::lock_guard lock(mutex_);
+  ++held_;
+}
+
+void CallRegistry::Release() {
+  const std::lock_guard lock(mutex_);
+  --held_;
+  changed_.notify_all();
 }
 
 int CallRegistry::in_flight() const {
@@ -53,7 +65,7 @@ void CallRegistry::StartDrain(absl::Duration grace) {
 bool CallRegistry::WaitUntilIdle(absl::Time deadline) {
   std::unique_lock lock(mutex_);
   return changed_.wait_until(lock, absl::ToChronoTime(deadline),
-                             [this] { return calls_.empty(); });
+                             [this] { return calls_.empty() && held_ == 0; });
 }
 
 void CallRegistry::RunTicks() {

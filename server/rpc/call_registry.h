@@ -2,7 +2,8 @@
 //
 // Thread-safe. A call is entered before anything is done for it and left when
 // gRPC is done with it; between the two the registry may call it from a thread
-// of its own.
+// of its own. It is held from its construction to its destruction: tasks on a
+// pool may still end after gRPC is done, and what they use must still be there.
 #ifndef ARGMESH_SERVER_RPC_CALL_REGISTRY_H_
 #define ARGMESH_SERVER_RPC_CALL_REGISTRY_H_
 
@@ -41,12 +42,15 @@ class CallRegistry {
   absl::Status Enter(LiveCall* call);
   void Leave(LiveCall* call);
 
-  int in_flight() const;
+  void Hold();
+  void Release();
+
+  int in_flight() const;  // entered and not left
   bool draining() const;
 
   // From now on Enter answers DRAINING; every call in flight is told.
   void StartDrain(absl::Duration grace);
-  // Whether the last call has left by `deadline`.
+  // Whether every call has left and been released by `deadline`.
   bool WaitUntilIdle(absl::Time deadline);
 
  private:
@@ -56,6 +60,7 @@ class CallRegistry {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::set<LiveCall*> calls_;
+  int held_ = 0;
   bool draining_ = false;
   bool stopped_ = false;
   std::thread ticker_;

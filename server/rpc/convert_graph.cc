@@ -198,22 +198,6 @@ v1::ShapeGraph ToProto(const ShapeGraph& graph) {
   return out;
 }
 
-v1::GraphSummary ToSummary(const ShapeGraph& graph) {
-  v1::GraphSummary out;
-  out.set_version(kShapeGraphVersion);
-  const std::vector<std::string> names = LevelNames(graph);
-  for (size_t i = 0; i < names.size(); ++i) {
-    const ArgLevel& level =
-        i < graph.levels.size() ? graph.levels[i] : graph.uniform;
-    v1::LevelSummary& added = *out.add_levels();
-    added.set_name(names[i]);
-    added.set_nodes(level.num_nodes());
-    added.set_edges(static_cast<int32_t>(level.edges.size()));
-  }
-  out.set_modes(static_cast<int32_t>(graph.modes.size()));
-  return out;
-}
-
 absl::StatusOr<ShapeGraph> FromProto(std::string_view field,
                                      const v1::ShapeGraph& graph) {
   if (graph.version() != kShapeGraphVersion) {

@@ -12,7 +12,6 @@
 namespace argmesh {
 
 v1::ShapeGraph ToProto(const ShapeGraph& graph);
-v1::GraphSummary ToSummary(const ShapeGraph& graph);
 
 // The exact mirror of ToProto. GRAPH_INVALID with metadata `field` for a graph
 // that is not well formed, GRAPH_VERSION_MISMATCH for another version.

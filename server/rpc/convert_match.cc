@@ -60,13 +60,27 @@ absl::StatusOr<MatchMode> FromProto(std::string_view field,
   }
 }
 
-absl::Status CheckParameters(std::string_view field,
-                             const v1::MatchParameters& parameters) {
-  if (parameters.attributes() == v1::ATTRIBUTE_SET_UNSPECIFIED &&
-      parameters.levels().empty()) {
-    return absl::OkStatus();
+absl::StatusOr<AttributeSet> FromProto(std::string_view field,
+                                       const v1::MatchParameters& parameters,
+                                       MatchMode mode) {
+  if (!parameters.levels().empty()) {
+    return FieldInvalid(std::string(field) + ".levels",
+                        "not served by this version; leave it empty");
   }
-  return FieldInvalid(field, "not served by this version; leave it empty");
+  const std::string attributes = std::string(field) + ".attributes";
+  switch (parameters.attributes()) {
+    case v1::ATTRIBUTE_SET_UNSPECIFIED:
+    case v1::ATTRIBUTE_SET_FULL:
+      return AttributeSet::kFull;
+    case v1::ATTRIBUTE_SET_TUPLE:
+      if (mode == MatchMode::kGlobal) return AttributeSet::kTuple;
+      return FieldInvalid(attributes, "a partial search always takes all");
+    default:
+      return FieldInvalid(
+          attributes,
+          absl::StrFormat("%d is no set of attributes",
+                          static_cast<int>(parameters.attributes())));
+  }
 }
 
 v1::Match ToProto(const MatchResult& match) {

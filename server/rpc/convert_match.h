@@ -15,9 +15,11 @@ namespace argmesh {
 absl::StatusOr<MatchMode> FromProto(std::string_view field,
                                     v1::SearchMode mode);
 
-// FIELD_INVALID unless everything is left to the server.
-absl::Status CheckParameters(std::string_view field,
-                             const v1::MatchParameters& parameters);
+// FIELD_INVALID for a number that is no set, for another set than FULL in a
+// partial search, and for levels, which are not served yet.
+absl::StatusOr<AttributeSet> FromProto(std::string_view field,
+                                       const v1::MatchParameters& parameters,
+                                       MatchMode mode);
 
 // Without the shape and the explanation.
 v1::Match ToProto(const MatchResult& match);

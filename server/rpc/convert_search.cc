@@ -93,7 +93,7 @@ absl::Status CheckServed(const v1::SearchShapesRequest& request) {
   if (request.min_generation() < 0) {
     return FieldInvalid("min_generation", "negative");
   }
-  return CheckParameters("parameters", request.parameters());
+  return absl::OkStatus();
 }
 
 absl::StatusOr<int> LimitOf(const v1::SearchShapesRequest& request) {
@@ -135,6 +135,9 @@ absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
                            ParseCollectionName("parent", request.parent()));
   ARGMESH_RETURN_IF_ERROR(CheckServed(request));
   ARGMESH_ASSIGN_OR_RETURN(query.mode, FromProto("mode", request.mode()));
+  ARGMESH_ASSIGN_OR_RETURN(
+      query.attributes,
+      FromProto("parameters", request.parameters(), query.mode));
   ARGMESH_ASSIGN_OR_RETURN(query.limit, LimitOf(request));
   ARGMESH_ASSIGN_OR_RETURN(query.min_score,
                            Share("min_score", request.min_score()));
@@ -154,8 +157,10 @@ absl::StatusOr<CompareQuery> FromProto(
   CompareQuery query;
   ARGMESH_ASSIGN_OR_RETURN(query.collection,
                            ParseCollectionName("parent", request.parent()));
-  ARGMESH_RETURN_IF_ERROR(CheckParameters("parameters", request.parameters()));
   ARGMESH_ASSIGN_OR_RETURN(query.mode, FromProto("mode", request.mode()));
+  ARGMESH_ASSIGN_OR_RETURN(
+      query.attributes,
+      FromProto("parameters", request.parameters(), query.mode));
   ARGMESH_ASSIGN_OR_RETURN(query.a, QueryOf("query", request.query()));
   ARGMESH_ASSIGN_OR_RETURN(query.b, QueryOf("target", request.target()));
   query.graphs = request.return_graphs();

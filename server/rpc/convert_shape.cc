@@ -23,6 +23,19 @@ v1::ShapeState StateToProto(ShapeState state) {
   return v1::SHAPE_STATE_UNSPECIFIED;
 }
 
+v1::GraphSummary SummaryToProto(const GraphSummary& summary) {
+  v1::GraphSummary out;
+  out.set_version(summary.version);
+  for (const GraphSummary::Level& level : summary.levels) {
+    v1::LevelSummary& added = *out.add_levels();
+    added.set_name(level.name);
+    added.set_nodes(level.nodes);
+    added.set_edges(level.edges);
+  }
+  out.set_modes(summary.modes);
+  return out;
+}
+
 }  // namespace
 
 v1::Shape ToProto(const ShapeRecord& record) {
@@ -41,6 +54,9 @@ v1::Shape ToProto(const ShapeRecord& record) {
   mesh.set_sha256(ToHex(record.sha256));
   *mesh.mutable_report() = ToProto(record.report);
   mesh.set_stored(record.mesh_stored);
+  if (record.state == ShapeState::kActive) {
+    *out.mutable_graph() = SummaryToProto(record.graph);
+  }
   *out.mutable_create_time() = ToTimestamp(record.create_time);
   *out.mutable_update_time() = ToTimestamp(record.update_time);
   out.set_etag(ShapeEtag(record));

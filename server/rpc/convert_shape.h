@@ -11,7 +11,6 @@
 
 namespace argmesh {
 
-// Without the graph summary.
 v1::Shape ToProto(const ShapeRecord& record);
 
 // FIELD_INVALID for a number that is no policy.

@@ -37,7 +37,7 @@ class GuardedReactor
  public:
   GuardedReactor(ServiceEnvironment& environment,
                  grpc::CallbackServerContext* context, const char* method)
-      : scope_(environment, context, method) {}
+      : held_(environment.calls), scope_(environment, context, method) {}
 
   // Called once, by StartReactor.
   void Enter() {
@@ -77,7 +77,23 @@ class GuardedReactor
     if (!scope_.MarkFinished()) return;
     // What still runs for the call is for nobody.
     scope_.RequestStop();
+    // Before the client can know: its next call must not be refused for this
+    // one.
+    ReleaseTicket();
     this->Finish(scope_.Report(status));
+  }
+
+  // Takes a place of its class until the call is finished; ends the call and
+  // returns false when there is none.
+  bool AdmitTo(Admission& admission) {
+    absl::StatusOr<Admission::Ticket> ticket = admission.Admit();
+    if (!ticket.ok()) {
+      FinishOnce(ticket.status());
+      return false;
+    }
+    const std::lock_guard lock(scope_.mutex());
+    if (!scope_.finished()) ticket_ = *std::move(ticket);
+    return true;
   }
 
   // Runs `step`; what it throws ends the call.
@@ -142,7 +158,23 @@ class GuardedReactor
     }
   }
 
+  void ReleaseTicket() {
+    const std::lock_guard lock(scope_.mutex());
+    ticket_.Release();
+  }
+
+  // Destroyed last: then nothing of the call uses the server any more.
+  struct Held {
+    explicit Held(CallRegistry& the_calls) : calls(the_calls) { calls.Hold(); }
+    ~Held() { calls.Release(); }
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    CallRegistry& calls;
+  };
+
+  const Held held_;
   CallScope scope_;
+  Admission::Ticket ticket_;              // with the scope's mutex
   std::vector<PoolStep> waiting_;         // with the scope's mutex
   std::shared_ptr<GuardedReactor> self_;  // until OnDone
 };

@@ -46,13 +46,7 @@ IngestReactor::IngestReactor(ServiceEnvironment& environment,
     : ReadingReactor(environment, context, "IngestService.IngestShapes") {}
 
 void IngestReactor::Begin() {
-  absl::StatusOr<Admission::Ticket> ticket = environment().ingests.Admit();
-  if (!ticket.ok()) {
-    FinishOnce(ticket.status());
-    return;
-  }
-  ticket_ = std::move(*ticket);
-  StartNextRead();
+  if (AdmitTo(environment().ingests)) StartNextRead();
 }
 
 // --- reading -----------------------------------------------------------------

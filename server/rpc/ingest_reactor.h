@@ -69,7 +69,6 @@ class IngestReactor final
   // Ends the call when nothing is left to do.
   void FinishWhenDone();
 
-  Admission::Ticket ticket_;
   std::string collection_;  // empty before hello
   ItemPtr current_;         // of the reading side; none between items
 

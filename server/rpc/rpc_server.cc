@@ -172,7 +172,7 @@ class RpcServer::Impl {
     // Of ours nothing is left, or it is late; only health watches still run.
     server_->Shutdown(absl::ToChronoTime(absl::Now() + kShutdownPatience));
     server_->Wait();
-    // gRPC's own part is done; tasks on the pool may still end their calls.
+    // gRPC's own part is done; tasks on the pool may still let go of calls.
     environment_.calls.WaitUntilIdle(absl::InfiniteFuture());
     server_.reset();
     return clean_;

@@ -10,7 +10,6 @@
 #include "server/rpc/download_reactor.h"
 #include "server/rpc/graph_answer.h"
 #include "server/rpc/resource_name.h"
-#include "server/rpc/shape_answer.h"
 #include "server/rpc/unary_reactor.h"
 #include "server/rpc/upload_reactor.h"
 
@@ -51,7 +50,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::CreateShape(
         ARGMESH_ASSIGN_OR_RETURN(
             const AddedShape added,
             environment_.engine.AddShape(shape, request->mesh().data(), stop));
-        *response = AnswerWithGraph(environment_.engine, added.record);
+        *response = ToProto(added.record);
         return absl::OkStatus();
       });
 }
@@ -71,7 +70,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
                                  ParseShapeName("name", request->name()));
         ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
                                  environment_.engine.GetShape(shape));
-        *response = AnswerWithGraph(environment_.engine, record);
+        *response = ToProto(record);
         return absl::OkStatus();
       });
 }

@@ -31,14 +31,7 @@ void UnaryReactor::Begin() {
     FinishOnce(MethodNotServed(plan_.method));
     return;
   }
-  if (plan_.admission != nullptr) {
-    absl::StatusOr<Admission::Ticket> ticket = plan_.admission->Admit();
-    if (!ticket.ok()) {
-      FinishOnce(ticket.status());
-      return;
-    }
-    ticket_ = std::move(*ticket);
-  }
+  if (plan_.admission != nullptr && !AdmitTo(*plan_.admission)) return;
   Run(plan_.work_class, [this] { FinishOnce(body_(stop())); });
 }
 

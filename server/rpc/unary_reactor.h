@@ -45,7 +45,6 @@ class UnaryReactor final : public GuardedReactor<grpc::ServerUnaryReactor> {
  private:
   const UnaryPlan plan_;
   const Body body_;
-  Admission::Ticket ticket_;
 };
 
 }  // namespace argmesh

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "server/rpc/convert_shape.h"
 #include "server/rpc/convert_upload.h"
-#include "server/rpc/shape_answer.h"
 
 namespace argmesh {
 
@@ -15,13 +15,7 @@ UploadReactor::UploadReactor(ServiceEnvironment& environment,
       response_(response) {}
 
 void UploadReactor::Begin() {
-  absl::StatusOr<Admission::Ticket> ticket = environment().uploads.Admit();
-  if (!ticket.ok()) {
-    FinishOnce(ticket.status());
-    return;
-  }
-  ticket_ = std::move(*ticket);
-  StartNextRead();
+  if (AdmitTo(environment().uploads)) StartNextRead();
 }
 
 void UploadReactor::Received(v1::UploadShapeRequest& request) {
@@ -66,7 +60,7 @@ absl::Status UploadReactor::AddShape() {
   ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<StagedMesh> mesh, upload_->Finish());
   ARGMESH_ASSIGN_OR_RETURN(const AddedShape added,
                            engine().AddShape(shape_, std::move(mesh), stop()));
-  *response_ = AnswerWithGraph(engine(), added.record);
+  *response_ = ToProto(added.record);
   return absl::OkStatus();
 }
 

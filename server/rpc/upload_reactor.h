@@ -32,7 +32,6 @@ class UploadReactor final
   absl::Status AddShape();
 
   v1::Shape* const response_;
-  Admission::Ticket ticket_;
   NewShape shape_;
   std::unique_ptr<MeshUpload> upload_;
 };
