@@ -1,11 +1,14 @@
 #include "server/storage/schema.h"
 
+#include <fcntl.h>
+
 #include <string>
 #include <system_error>
 
 #include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/posix_file.h"
 
 namespace argmesh {
 namespace {
@@ -98,7 +101,10 @@ absl::Status CopyBefore(SqliteConnection& connection,
   copy += absl::StrFormat(".version-%d", version);
   std::error_code ignored;  // one of an interrupted migration
   std::filesystem::remove(copy, ignored);
-  return connection.Run("VACUUM INTO ?", copy.string()).status();
+  const std::string name = copy.string();
+  ARGMESH_RETURN_IF_ERROR(connection.Run("VACUUM INTO ?", name).status());
+  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file, OpenFile(copy, O_RDONLY));
+  return SyncFile(file, copy);
 }
 
 absl::Status RunMigration(SqliteConnection& connection, const char* sql,
