@@ -76,8 +76,8 @@ absl::StatusOr<std::string_view> ByteReader::ReadBytes(size_t count) {
 absl::Status ByteReader::ExpectEnd() const {
   if (remaining() == 0) return absl::OkStatus();
   return absl::DataLossError(
-      absl::StrFormat("%s: %d bytes left over at offset %d",
-                      std::string(what_), remaining(), position_));
+      absl::StrFormat("%s: %d bytes left over at offset %d", std::string(what_),
+                      remaining(), position_));
 }
 
 }  // namespace argmesh

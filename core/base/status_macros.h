@@ -10,16 +10,16 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
-#define ARGMESH_RETURN_IF_ERROR(expr)                         \
-  do {                                                        \
-    if (absl::Status status_ = (expr); !status_.ok()) {       \
-      return status_;                                         \
-    }                                                         \
+#define ARGMESH_RETURN_IF_ERROR(expr)                   \
+  do {                                                  \
+    if (absl::Status status_ = (expr); !status_.ok()) { \
+      return status_;                                   \
+    }                                                   \
   } while (false)
 
-#define ARGMESH_ASSIGN_OR_RETURN(lhs, expr) \
-  ARGMESH_ASSIGN_OR_RETURN_IMPL_(           \
-      ARGMESH_MACRO_CONCAT_(status_or_, __LINE__), lhs, expr)
+#define ARGMESH_ASSIGN_OR_RETURN(lhs, expr)                                   \
+  ARGMESH_ASSIGN_OR_RETURN_IMPL_(ARGMESH_MACRO_CONCAT_(status_or_, __LINE__), \
+                                 lhs, expr)
 
 #define ARGMESH_MACRO_CONCAT_INNER_(a, b) a##b
 #define ARGMESH_MACRO_CONCAT_(a, b) ARGMESH_MACRO_CONCAT_INNER_(a, b)

@@ -5,10 +5,9 @@
 #ifndef ARGMESH_CORE_MESH_TRIANGLE_MESH_H_
 #define ARGMESH_CORE_MESH_TRIANGLE_MESH_H_
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "absl/status/status.h"
 
