@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_format.h"
 #include "client/client_parts.h"
 #include "client/request_id.h"
@@ -24,11 +25,17 @@ void SetDeadline(absl::Time deadline, grpc::ClientContext& context) {
 }
 
 absl::Status Client::Parts::Explain(const grpc::Status& status) const {
-  const absl::Status plain = ToStatus(status);
-  if (!IsUnreachable(plain)) return plain;
+  return Explain(ToStatus(status));
+}
+
+absl::Status Client::Parts::Explain(const absl::Status& status) const {
+  if (!IsUnreachable(status)) return status;
+  // "failed to connect to all addresses; last error: ...: Connection refused"
+  std::string why(status.message());
+  why.erase(0, why.rfind(": ") + 1);
+  absl::StripAsciiWhitespace(&why);
   return absl::UnavailableError(
-      absl::StrFormat("no argmesh server answers at %s (%s)", target,
-                      std::string(plain.message())));
+      absl::StrFormat("no argmesh server answers at %s (%s)", target, why));
 }
 
 absl::StatusOr<std::unique_ptr<Client>> Client::Connect(

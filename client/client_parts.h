@@ -43,6 +43,7 @@ struct Client::Parts {
 
   // With the address in place of gRPC's own words when no server answers.
   absl::Status Explain(const grpc::Status& status) const;
+  absl::Status Explain(const absl::Status& status) const;
 
   // Makes one call, again where that may help, until the deadline.
   template <typename Response>

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_format.h"
 #include "client/backoff.h"
 #include "client/client_parts.h"
 #include "client/error_status.h"
@@ -126,11 +125,7 @@ absl::Status IngestRun::RunStream() {
     if (!sent) break;
     ready_ = NextItem();
   }
-  const absl::Status status = stream.Finish();
-  if (!IsUnreachable(status)) return status;
-  return absl::UnavailableError(
-      absl::StrFormat("no argmesh server answers at %s (%s)", client_.target(),
-                      std::string(status.message())));
+  return client_.parts().Explain(stream.Finish());
 }
 
 std::optional<std::pair<v1::IngestItem, std::string>> IngestRun::NextItem() {

@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 // Nothing listens on port 1.
-Outcome Run(std::vector<const char*> arguments) {
+Outcome Command(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(),
                    {"argmesh", "--server", "127.0.0.1:1", "--timeout", "2"});
   std::ostringstream out;
@@ -59,7 +59,7 @@ TEST(RunArgmesh, HelpsWithEveryCommand) {
       {"completion", "--help"}};
   for (const auto& command : commands) {
     SCOPED_TRACE(command.front());
-    const Outcome outcome = Run(command);
+    const Outcome outcome = Command(command);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, HasSubstr("Example"));
     EXPECT_EQ(outcome.err, "");
@@ -67,7 +67,7 @@ TEST(RunArgmesh, HelpsWithEveryCommand) {
 }
 
 TEST(RunArgmesh, TellsItsVersion) {
-  const Outcome outcome = Run({"--version"});
+  const Outcome outcome = Command({"--version"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("argmesh 0."));
 }
@@ -94,22 +94,22 @@ TEST(RunArgmesh, AnswersAWrongCommandLineWithTwo) {
     std::string line;
     for (const char* word : command) line += std::string(word) + " ";
     SCOPED_TRACE(line);
-    const Outcome outcome = Run(command);
+    const Outcome outcome = Command(command);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err, "");
   }
 }
 
 TEST(RunArgmesh, AnswersAnAbsentServerWithThree) {
-  const Outcome outcome = Run({"info"});
+  const Outcome outcome = Command({"info"});
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.err,
               HasSubstr("no argmesh server answers at 127.0.0.1:1"));
-  EXPECT_EQ(Run({"health"}).exit_code, 3);
+  EXPECT_EQ(Command({"health"}).exit_code, 3);
 }
 
 TEST(RunArgmesh, TellsProgramsOfAnErrorInJson) {
-  const Outcome outcome = Run({"list", "--json"});
+  const Outcome outcome = Command({"list", "--json"});
   EXPECT_EQ(outcome.exit_code, 3);
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["error"]["code"], "UNAVAILABLE");
@@ -121,8 +121,8 @@ TEST(RunArgmesh, SamplesTheSameFilesForTheSameSeed) {
   const std::string two = (folder.path() / "two").string();
   for (const std::string& out : {one, two}) {
     const Outcome outcome =
-        Run({"sample", "--out", out.c_str(), "--shapes-per-class", "1",
-             "--classes", "mug,table", "--vertices", "1000", "--json"});
+        Command({"sample", "--out", out.c_str(), "--shapes-per-class", "1",
+                 "--classes", "mug,table", "--vertices", "1000", "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["shapes"], 2);
   }
@@ -134,13 +134,13 @@ TEST(RunArgmesh, SamplesTheSameFilesForTheSameSeed) {
             "mug/mug-01.off\tmug\ntable/table-01.off\ttable\n");
   EXPECT_NE(read(one + "/mug/mug-01.off"), "");
   EXPECT_EQ(read(one + "/mug/mug-01.off"), read(two + "/mug/mug-01.off"));
-  EXPECT_EQ(
-      Run({"sample", "--out", one.c_str(), "--classes", "unicorn"}).exit_code,
-      2);
+  EXPECT_EQ(Command({"sample", "--out", one.c_str(), "--classes", "unicorn"})
+                .exit_code,
+            2);
 }
 
 TEST(RunArgmesh, PrintsCompletionOfEveryCommand) {
-  const Outcome outcome = Run({"completion", "bash"});
+  const Outcome outcome = Command({"completion", "bash"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("command='picture match'"));
   EXPECT_THAT(outcome.out, HasSubstr("--min-score"));

@@ -1,0 +1,92 @@
+#include "tests/e2e/installation.h"
+
+#include <signal.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <thread>
+
+namespace argmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kStartTimeout = std::chrono::seconds(60);
+
+std::string ReadAll(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json CommandOutcome::Json() const {
+  return nlohmann::ordered_json::parse(out, nullptr, false);
+}
+
+Installation::Installation() {
+  std::string pattern =
+      (fs::temp_directory_path() / "argmesh-e2e-XXXXXX").string();
+  folder_ = mkdtemp(pattern.data());
+}
+
+Installation::~Installation() {
+  server_.reset();
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+bool Installation::StartServer() {
+  server_.reset();
+  const fs::path port_file = folder_ / "address";
+  fs::remove(port_file);
+  server_.emplace(
+      std::vector<std::string>{ARGMESHD_BINARY, "--data",
+                               (folder_ / "store").string(), "--listen",
+                               address_.empty() ? "127.0.0.1:0" : address_,
+                               "--port-file", port_file.string()},
+      folder_, "server");
+  const auto end = std::chrono::steady_clock::now() + kStartTimeout;
+  while (std::chrono::steady_clock::now() < end && server_->Running()) {
+    std::string text = ReadAll(port_file);
+    if (text.ends_with('\n')) text.pop_back();
+    if (!text.empty()) {
+      address_ = text;
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  std::cerr << server_->Err();
+  return false;
+}
+
+void Installation::SignalServer(int signal) { server_->Signal(signal); }
+int Installation::WaitForServer() { return server_->Wait(); }
+
+ChildProcess Installation::Start(const std::vector<std::string>& words) {
+  std::vector<std::string> line = {ARGMESH_BINARY, "--server", address_};
+  line.insert(line.end(), words.begin(), words.end());
+  return {line, folder_, "command-" + std::to_string(++commands_)};
+}
+
+CommandOutcome Installation::Run(const std::vector<std::string>& words) {
+  ChildProcess command = Start(words);
+  const int exit_code = command.Wait();
+  return {exit_code, command.Out(), command.Err()};
+}
+
+void Installation::WriteFile(const std::string& relative,
+                             const std::string& bytes) const {
+  const fs::path path = folder_ / relative;
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string Installation::ReadFile(const std::string& relative) const {
+  return ReadAll(folder_ / relative);
+}
+
+}  // namespace argmesh

@@ -1,0 +1,57 @@
+// The built programs at work: a server process with a folder of its own, and
+// the command line against it.
+#ifndef ARGMESH_TESTS_E2E_INSTALLATION_H_
+#define ARGMESH_TESTS_E2E_INSTALLATION_H_
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/e2e/child_process.h"
+
+namespace argmesh {
+
+struct CommandOutcome {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+
+  // `out` as JSON; a discarded value when it is none.
+  nlohmann::ordered_json Json() const;
+};
+
+class Installation {
+ public:
+  Installation();   // an empty folder, no server yet
+  ~Installation();  // kills the server, removes the folder
+
+  const std::filesystem::path& folder() const { return folder_; }
+  const std::string& address() const { return address_; }
+
+  // Starts the server and waits until it serves; at the address of before when
+  // it ran before. False with its log on stderr when it does not come up.
+  bool StartServer();
+  void SignalServer(int signal);
+  // Waits for the server's end.
+  int WaitForServer();
+
+  // Runs `argmesh` with these words to its end.
+  CommandOutcome Run(const std::vector<std::string>& words);
+  // Starts it and returns.
+  ChildProcess Start(const std::vector<std::string>& words);
+
+  void WriteFile(const std::string& relative, const std::string& bytes) const;
+  std::string ReadFile(const std::string& relative) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string address_;
+  std::optional<ChildProcess> server_;
+  int commands_ = 0;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_TESTS_E2E_INSTALLATION_H_

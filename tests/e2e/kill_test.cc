@@ -1,0 +1,162 @@
+// A server killed in the middle of an ingest: what was acknowledged is there
+// when it is back, what is there is whole, and the ingest goes on.
+//
+// ARGMESH_KILL_ROUNDS rounds, 4 when not set.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "core/base/random.h"
+#include "tests/e2e/installation.h"
+
+namespace argmesh {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr int kShapes = 10;
+
+int Rounds() {
+  const char* rounds = getenv("ARGMESH_KILL_ROUNDS");
+  return rounds == nullptr ? 4 : atoi(rounds);
+}
+
+// The ids in the lines "stored ID PATH".
+std::set<std::string> Acknowledged(const ChildProcess& ingest) {
+  std::set<std::string> ids;
+  std::istringstream lines(ingest.Err());
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string verb;
+    std::string id;
+    // A line that is still being written does not count.
+    if (words >> verb >> id && verb == "stored" && !lines.eof()) ids.insert(id);
+  }
+  return ids;
+}
+
+class KillTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(installation_.StartServer());
+    const CommandOutcome sample =
+        installation_.Run({"sample", "--out", Meshes(), "--shapes-per-class",
+                           std::to_string(kShapes / 2), "--classes",
+                           "mug,wrench", "--vertices", "1500"});
+    ASSERT_EQ(sample.exit_code, 0) << sample.err;
+  }
+
+  std::string Meshes() const {
+    return (installation_.folder() / "meshes").string();
+  }
+
+  ChildProcess StartIngest(const std::string& collection) {
+    return installation_.Start(
+        {"ingest", "--collection", collection, "--verbose", Meshes()});
+  }
+
+  std::set<std::string> Stored(const std::string& collection) {
+    std::set<std::string> ids;
+    const CommandOutcome list =
+        installation_.Run({"list", "--collection", collection, "--json"});
+    if (list.exit_code != 0) return ids;
+    const OrderedJson json = list.Json();
+    for (const auto& shape : json["shapes"]) {
+      EXPECT_EQ(shape["state"], "active");
+      ids.insert(shape["shape"].get<std::string>());
+    }
+    return ids;
+  }
+
+  // Every listed shape has a graph, its file, and is found by a search.
+  void ExpectWhole(const std::string& collection,
+                   const std::set<std::string>& ids) {
+    const std::string file = (installation_.folder() / "mesh.off").string();
+    for (const std::string& id : ids) {
+      EXPECT_EQ(installation_.Run({"graph", "--collection", collection, id})
+                    .exit_code,
+                0)
+          << id;
+      EXPECT_EQ(installation_
+                    .Run({"get", "--collection", collection, id, "--out", file})
+                    .exit_code,
+                0)
+          << id;
+    }
+    if (ids.empty()) return;
+    const CommandOutcome search = installation_.Run(
+        {"search", "--collection", collection, "--shape", *ids.begin(),
+         "--include-self", "--limit", "100", "--json"});
+    EXPECT_EQ(search.Json()["matches"].size(), ids.size()) << search.err;
+  }
+
+  // Kills the server once `count` shapes are acknowledged and `delay` passed.
+  void KillServerAfter(ChildProcess& ingest, size_t count,
+                       std::chrono::milliseconds delay) {
+    while (ingest.Running() && Acknowledged(ingest).size() < count) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(delay);
+    installation_.SignalServer(SIGKILL);
+    installation_.WaitForServer();
+  }
+
+  Installation installation_;
+};
+
+TEST_F(KillTest, LosesNothingThatWasAcknowledged) {
+  constexpr uint64_t kSeed = 7;
+  Random random(kSeed);
+  for (int round = 0; round < Rounds(); ++round) {
+    SCOPED_TRACE("round " + std::to_string(round) + ", seed 7");
+    const std::string collection = "round-" + std::to_string(round);
+    const bool client_survives = round % 2 == 1;
+    ChildProcess ingest = StartIngest(collection);
+    KillServerAfter(ingest, random.Below(kShapes),
+                    std::chrono::milliseconds(random.Below(150)));
+    if (!client_survives) {
+      ingest.Signal(SIGKILL);
+      ingest.Wait();
+    }
+    const std::set<std::string> acknowledged = Acknowledged(ingest);
+    ASSERT_TRUE(installation_.StartServer());
+    if (client_survives) {
+      // It comes back by itself and stores the rest.
+      EXPECT_EQ(ingest.Wait(), 0) << ingest.Err();
+      EXPECT_EQ(Stored(collection).size(), static_cast<size_t>(kShapes));
+    }
+    const std::set<std::string> stored = Stored(collection);
+    for (const std::string& id : acknowledged) {
+      EXPECT_TRUE(stored.contains(id)) << id << " was acknowledged";
+    }
+    ExpectWhole(collection, stored);
+    const CommandOutcome again = installation_.Run(
+        {"ingest", "--collection", collection, Meshes(), "--json"});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(again.Json()["already_stored"], stored.size());
+    EXPECT_EQ(Stored(collection).size(), static_cast<size_t>(kShapes));
+  }
+}
+
+TEST_F(KillTest, AnswersTheSameAfterARestart) {
+  ASSERT_EQ(StartIngest("kept").Wait(), 0);
+  const std::string id = *Stored("kept").begin();
+  const std::vector<std::string> search = {
+      "search", "--collection", "kept", "--shape", id, "--json"};
+  const OrderedJson before = installation_.Run(search).Json()["matches"];
+  installation_.SignalServer(SIGTERM);
+  EXPECT_EQ(installation_.WaitForServer(), 0);
+  ASSERT_TRUE(installation_.StartServer());
+  const OrderedJson after = installation_.Run(search).Json()["matches"];
+  EXPECT_EQ(before.size(), static_cast<size_t>(kShapes - 1));
+  EXPECT_EQ(before, after);
+}
+
+}  // namespace
+}  // namespace argmesh
