@@ -24,14 +24,15 @@ ComputePoolOptions Threads(int threads, int max_queued) {
 class Blocker {
  public:
   Blocker(ComputePool& pool, WorkClass work_class) {
-    std::promise<void> begun;
+    const auto begun = std::make_shared<std::promise<void>>();
+    const std::shared_future<void> released = release_.get_future().share();
     pool.Submit(work_class, absl::InfiniteFuture(),
-                [this, &begun](const absl::Status& status) {
+                [begun, released](const absl::Status& status) {
                   EXPECT_TRUE(status.ok());
-                  begun.set_value();
-                  release_.get_future().wait();
+                  begun->set_value();
+                  released.wait();
                 });
-    begun.get_future().wait();
+    begun->get_future().wait();
   }
   void Release() { release_.set_value(); }
 
@@ -49,8 +50,8 @@ absl::Status SubmitAndWait(ComputePool& pool, WorkClass work_class,
 }
 
 TEST(ComputePool, RunsWorkOnAnotherThread) {
-  ComputePool pool(Threads(1, 1));
   std::promise<std::thread::id> id;
+  ComputePool pool(Threads(1, 1));
   pool.Submit(WorkClass::kQuick, absl::InfiniteFuture(),
               [&](const absl::Status& status) {
                 EXPECT_TRUE(status.ok());
@@ -60,10 +61,10 @@ TEST(ComputePool, RunsWorkOnAnotherThread) {
 }
 
 TEST(ComputePool, RunsWhatWaitsWhenAThreadComesFree) {
-  ComputePool pool(Threads(1, 10));
-  Blocker blocker(pool, WorkClass::kSearch);
   std::atomic<int> ran{0};
   std::vector<std::promise<void>> done(5);
+  ComputePool pool(Threads(1, 10));
+  Blocker blocker(pool, WorkClass::kSearch);
   for (auto& promise : done) {
     pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
                 [&](const absl::Status& status) {
@@ -127,8 +128,8 @@ TEST(ComputePool, VisitsEveryIndexOfALoopOnce) {
 }
 
 TEST(ComputePool, RunsALoopInsideWorkOfTheSameClassWhenNoThreadIsIdle) {
-  ComputePool pool(Threads(1, 4));
   std::promise<int64_t> sum;
+  ComputePool pool(Threads(1, 4));
   pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
               [&](const absl::Status&) {
                 std::atomic<int64_t> total{0};
@@ -140,9 +141,9 @@ TEST(ComputePool, RunsALoopInsideWorkOfTheSameClassWhenNoThreadIsIdle) {
 }
 
 TEST(ComputePool, RefusesEverythingOnceItIsClosed) {
+  std::promise<absl::Status> queued;
   ComputePool pool(Threads(1, 4));
   Blocker blocker(pool, WorkClass::kSearch);
-  std::promise<absl::Status> queued;
   pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(),
               [&](absl::Status status) { queued.set_value(status); });
   std::thread closing([&] { pool.Close(); });
