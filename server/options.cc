@@ -65,6 +65,28 @@ void AddTimes(CLI::App& app, Seconds& seconds) {
       ->check(CLI::Range(0.0, 3600.0));
 }
 
+// What is done instead of serving; never a key of the file.
+void AddActions(CLI::App& app, ServerOptions& options) {
+  app.add_flag("--check-config", options.check_config,
+               "Check the options and exit")
+      ->configurable(false);
+  app.add_flag("--print-config", options.print_config,
+               "Print the options as a file for --config and exit")
+      ->configurable(false);
+}
+
+void Describe(CLI::App& app, std::string_view version) {
+  app.option_defaults()->always_capture_default();
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.set_version_flag("--version", "argmeshd " + std::string(version));
+  app.set_config("--config", "", "File with options, TOML or INI");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.footer(
+      "Every option may be given in the environment (--drain-delay is "
+      "ARGMESH_DRAIN_DELAY) and in the file of --config. Flags win over the "
+      "environment, the environment over the file.");
+}
+
 std::string VariableOf(const std::string& option) {
   std::string name = "ARGMESH_";
   for (const char c : option) {
@@ -136,24 +158,11 @@ absl::StatusOr<ParsedOptions> ParseServerOptions(
       .drain_timeout = absl::ToDoubleSeconds(options.drain_timeout)};
 
   CLI::App app("The argmesh shape-retrieval server", "argmeshd");
-  app.option_defaults()->always_capture_default();
-  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.set_version_flag("--version", "argmeshd " + std::string(version));
-  app.set_config("--config", "", "File with options, TOML or INI");
-  app.allow_config_extras(CLI::config_extras_mode::error);
-  app.footer(
-      "Every option may be given in the environment (--drain-delay is "
-      "ARGMESH_DRAIN_DELAY) and in the file of --config. Flags win over the "
-      "environment, the environment over the file.");
+  Describe(app, version);
   AddServingOptions(app, options);
   AddLimits(app, options);
   AddTimes(app, seconds);
-  app.add_flag("--check-config", options.check_config,
-               "Check the options and exit")
-      ->configurable(false);
-  app.add_flag("--print-config", options.print_config,
-               "Print the options as a file for --config and exit")
-      ->configurable(false);
+  AddActions(app, options);
 
   const std::vector<std::string> given = FromEnvironment(app, environment);
   std::vector<std::string> reversed = given;
