@@ -22,8 +22,7 @@ struct RetryOptions {
 // Connections are not encrypted so far; certificates and keys will be fields
 // here.
 struct ClientOptions {
-  // Of one call with all its attempts; streams are cut when nothing comes for
-  // so long. > 0.
+  // Of one call with all its attempts, also an upload or download; > 0.
   absl::Duration call_timeout = absl::Seconds(120);
   // Of calls that may be repeated without harm.
   RetryOptions retry;

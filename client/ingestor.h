@@ -53,6 +53,9 @@ struct IngestOptions {
   v1::ExistingShapePolicy existing = v1::EXISTING_SHAPE_POLICY_ACCEPT_SAME_MESH;
   // Entries under way at a time, beside what the server allows; 0: no limit.
   int max_in_flight = 0;
+  // A stream on which the server says nothing for so long is cut; > the time
+  // that the largest mesh takes.
+  absl::Duration silence = absl::Minutes(10);
   // Attempts to reach the server without any new outcome between them.
   RetryOptions reconnect{.max_attempts = 8,
                          .initial_backoff = absl::Milliseconds(200),

@@ -107,6 +107,20 @@ absl::StatusOr<Figure> DrawUnframed(const TriangleMesh& query,
   return Compose(panels, options);
 }
 
+// Framed by whether the class is the query's, where that is known.
+absl::StatusOr<Figure> DrawRanking(const TriangleMesh& query,
+                                   const std::string& query_class,
+                                   std::span<const RankedShape> results,
+                                   const PictureArguments& picture) {
+  FigureOptions options = FigureOptionsOf(picture);
+  if (picture.width == 0) {
+    options.panel_width = 240;
+    options.panel_height = 200;
+  }
+  if (query_class.empty()) return DrawUnframed(query, results, options);
+  return RenderContactSheet(query, "query: " + query_class, results, options);
+}
+
 absl::StatusOr<int> DrawResults(const Session& session,
                                 const ResultsArguments& arguments) {
   ARGMESH_ASSIGN_OR_RETURN(v1::SearchShapesRequest request,
@@ -139,16 +153,9 @@ absl::StatusOr<int> DrawResults(const Session& session,
          .score = match.score(),
          .relevant = label == query_class});
   }
-  FigureOptions options = FigureOptionsOf(arguments.picture);
-  if (arguments.picture.width == 0) {
-    options.panel_width = 240;
-    options.panel_height = 200;
-  }
   ARGMESH_ASSIGN_OR_RETURN(
       const Figure figure,
-      query_class.empty() ? DrawUnframed(query, results, options)
-                          : RenderContactSheet(query, "query: " + query_class,
-                                               results, options));
+      DrawRanking(query, query_class, results, arguments.picture));
   return WriteFigure(session, figure, arguments.picture);
 }
 

@@ -30,7 +30,10 @@ class CommandLineTest : public testing::Test {
     first_ingest_ = Run({"ingest", "--collection", "demo", "--labels",
                          Path("meshes/labels.tsv"), Path("meshes"), "--json"});
   }
-  static void TearDownTestSuite() { installation_.reset(); }
+  static void TearDownTestSuite() {
+    EXPECT_TRUE(installation_->ServerRuns()) << installation_->ServerLog();
+    installation_.reset();
+  }
 
   static CommandOutcome Run(const Words& words) {
     return installation_->Run(words);

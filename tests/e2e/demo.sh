@@ -45,14 +45,14 @@ argmesh sample --part quadruped --out "$part"
 argmesh search --collection demo --mode partial --limit 8 "$part"
 
 say "pictures"
-argmesh picture levels --collection demo "$query" --out "$out/levels.png"
-argmesh picture modes --collection demo "$query" --out "$out/modes.png"
+argmesh picture levels --collection demo "$query" --up z --out "$out/levels.png"
+argmesh picture modes --collection demo "$query" --up z --out "$out/modes.png"
 argmesh picture results --collection demo --mode global --shape "$query" \
-  --out "$out/global.png"
+  --up z --out "$out/global.png"
 argmesh picture results --collection demo --mode partial "$part" \
-  --out "$out/partial.png"
+  --up z --out "$out/partial.png"
 second=$(argmesh search --collection demo --mode global --limit 1 --json \
   --shape "$query" | grep -o '"shape": *"[^"]*"' | head -1 | cut -d'"' -f4)
 argmesh picture match --collection demo "$query" "$second" \
-  --out "$out/match.png"
+  --up z --out "$out/match.png"
 ls "$out"/*.png

@@ -64,6 +64,10 @@ bool Installation::StartServer() {
 }
 
 void Installation::SignalServer(int signal) { server_->Signal(signal); }
+bool Installation::ServerRuns() { return server_ && server_->Running(); }
+std::string Installation::ServerLog() const {
+  return server_ ? server_->Err() : "";
+}
 int Installation::WaitForServer() { return server_->Wait(); }
 
 ChildProcess Installation::Start(const std::vector<std::string>& words) {

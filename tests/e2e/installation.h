@@ -34,6 +34,9 @@ class Installation {
   // it ran before. False with its log on stderr when it does not come up.
   bool StartServer();
   void SignalServer(int signal);
+  bool ServerRuns();
+  // What the running or last server has logged.
+  std::string ServerLog() const;
   // Waits for the server's end.
   int WaitForServer();
 

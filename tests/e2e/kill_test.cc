@@ -125,7 +125,7 @@ TEST_F(KillTest, LosesNothingThatWasAcknowledged) {
       ingest.Wait();
     }
     const std::set<std::string> acknowledged = Acknowledged(ingest);
-    ASSERT_TRUE(installation_.StartServer());
+    ASSERT_TRUE(installation_.StartServer()) << installation_.ServerLog();
     if (client_survives) {
       // It comes back by itself and stores the rest.
       EXPECT_EQ(ingest.Wait(), 0) << ingest.Err();
@@ -141,6 +141,7 @@ TEST_F(KillTest, LosesNothingThatWasAcknowledged) {
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(again.Json()["already_stored"], stored.size());
     EXPECT_EQ(Stored(collection).size(), static_cast<size_t>(kShapes));
+    ASSERT_TRUE(installation_.ServerRuns()) << installation_.ServerLog();
   }
 }
 
