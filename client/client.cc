@@ -29,6 +29,12 @@ absl::Status Client::Parts::Explain(const grpc::Status& status) const {
 }
 
 absl::Status Client::Parts::Explain(const absl::Status& status) const {
+  if (status.code() == absl::StatusCode::kDeadlineExceeded &&
+      ErrorReason(status).empty()) {
+    return absl::DeadlineExceededError(
+        absl::StrFormat("no answer from %s within %s", target,
+                        absl::FormatDuration(options.call_timeout)));
+  }
   if (!IsUnreachable(status)) return status;
   // "failed to connect to all addresses; last error: ...: Connection refused"
   std::string why(status.message());

@@ -41,7 +41,8 @@ struct Client::Parts {
   std::unique_ptr<v1::AdminService::Stub> admin;
   std::atomic<uint64_t> next_seed{0};  // of the waits of each call
 
-  // With the address in place of gRPC's own words when no server answers.
+  // With the address in place of gRPC's own words when no server answers, or
+  // not in time.
   absl::Status Explain(const grpc::Status& status) const;
   absl::Status Explain(const absl::Status& status) const;
 

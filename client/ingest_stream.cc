@@ -114,8 +114,8 @@ absl::Status IngestStream::Finish() {
   const grpc::Status status = stream_->Finish();
   finished_ = true;
   if (silent_) {
-    return absl::DeadlineExceededError(
-        "the server went silent while shapes were being stored");
+    return MakeStatus(absl::StatusCode::kDeadlineExceeded, "STREAM_SILENT",
+                      "the server went silent while shapes were being stored");
   }
   return ToStatus(status);
 }

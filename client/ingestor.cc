@@ -55,7 +55,7 @@ class IngestRun {
   std::optional<std::pair<v1::IngestItem, std::string>> Prepare(size_t index);
   std::optional<size_t> TakeWaiting();
   void TakeResult(const v1::IngestItemResult& result);
-  void Report(IngestOutcome outcome);
+  void Report(const IngestOutcome& outcome);
   // What was sent without a result waits again.
   void RecallSent();
   bool AllReported() const;
@@ -92,7 +92,7 @@ absl::Status IngestRun::Run() {
     if (reported_ != reported_before) backoff.Reset();
     reported_before = reported_;
     // A stream that ends well without all results did so to go away.
-    const absl::Status failure =
+    absl::Status failure =
         status.ok() ? absl::UnavailableError("the server ended the stream")
                     : status;
     const auto wait = backoff.Next(failure);
@@ -200,10 +200,10 @@ void IngestRun::TakeResult(const v1::IngestItemResult& result) {
       outcome.already_stored = result.already_stored() && sends_[index] == 1;
     }
   }
-  Report(std::move(outcome));
+  Report(outcome);
 }
 
-void IngestRun::Report(IngestOutcome outcome) {
+void IngestRun::Report(const IngestOutcome& outcome) {
   const std::lock_guard<std::mutex> lock(mutex_);
   states_[outcome.index] = EntryState::kReported;
   ++reported_;

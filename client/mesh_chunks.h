@@ -7,7 +7,7 @@
 
 namespace argmesh {
 
-inline constexpr size_t kMeshChunkBytes = 256 * 1024;
+inline constexpr size_t kMeshChunkBytes = size_t{256} * 1024;
 
 // Calls `write` with each piece in turn until it returns false; false then.
 template <typename Write>

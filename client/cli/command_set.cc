@@ -3,12 +3,20 @@
 #include <utility>
 
 namespace argmesh {
+namespace {
+
+constexpr char kGlobalOptions[] = R"(
+
+Global options, before or after the command: --server HOST:PORT, --timeout
+SECONDS, --json; see `argmesh --help`.)";
+
+}  // namespace
 
 CLI::App* CommandSet::Add(CLI::App& parent, const CommandText& text,
                           CommandBody body) {
   CLI::App* command = parent.add_subcommand(text.name, text.description);
   command->fallthrough();
-  command->footer(text.details);
+  command->footer(text.details + std::string(kGlobalOptions));
   commands_.push_back({command, std::move(body)});
   return command;
 }

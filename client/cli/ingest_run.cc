@@ -189,7 +189,7 @@ absl::Status IngestJob::Run(const std::stop_token& stop) {
   Ingestor ingestor(*client_, std::move(options));
   ProgressLine progress(session_.err, session_.err_is_terminal, "ingest",
                         files_.size());
-  const absl::Status status = ingestor.Run(
+  absl::Status status = ingestor.Run(
       entries, [&](const IngestOutcome& outcome) { Report(outcome, progress); },
       stop);
   summary_.seconds = absl::ToDoubleSeconds(absl::Now() - start);
