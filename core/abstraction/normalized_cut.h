@@ -31,7 +31,6 @@ struct CutProblem {
 // The tree down to single nodes; node 0 is the whole set.
 std::vector<CutNode> BuildCutTree(const CutProblem& problem);
 
-// Every cut of value <= threshold, from the top.
 // Levels: one per threshold (ascending), then one per count (ascending), each
 // continuing the one before, so that they nest. A level never has fewer
 // components than the level before it.
