@@ -1,6 +1,8 @@
 # argmesh_library(NAME SOURCES a.cc b.cc DEPS x y [PRIVATE_DEPS z])
 # argmesh_executable(NAME SOURCES ... DEPS ...)
 # argmesh_test(NAME LABEL unit SOURCES ... DEPS ...)
+# argmesh_embed(NAME DATA FILE): links the bytes of FILE into the library
+#   NAME, between the symbols argmesh_DATA_begin and argmesh_DATA_end.
 #
 # One target per module. Headers are found from the repository root
 # ("core/mesh/triangle_mesh.h"); warnings and sanitizers are target-scoped.
@@ -35,6 +37,14 @@ function(argmesh_library name)
     argmesh_${name}
     PUBLIC ${ARG_DEPS}
     PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+function(argmesh_embed library name file)
+  get_filename_component(path ${file} ABSOLUTE)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_data.S)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded_data.S.in ${source} @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${path})
+  target_sources(argmesh_${library} PRIVATE ${source})
 endfunction()
 
 function(argmesh_executable name)

@@ -21,10 +21,12 @@ allow(core/geometry core/base core/mesh core/geometry)
 allow(core/abstraction core/base core/mesh core/geometry core/abstraction)
 allow(core/graph core/base core/mesh core/geometry core/abstraction core/graph)
 allow(core/matching core/base core/graph core/matching)
+allow(core/signature core/base core/mesh core/geometry core/signature)
+allow(core/containment core/base core/mesh core/geometry core/containment)
 allow(core/evaluation core/base core/evaluation)
 allow(core/synthesis core/base core/mesh core/synthesis)
 allow(server/engine core/base core/mesh core/abstraction core/graph
-      core/matching server/engine)
+      core/matching core/signature core/containment server/engine)
 allow(server/storage core/base server/engine server/storage)
 allow(server/rpc proto core/base core/mesh core/abstraction core/graph
       core/matching server/engine server/rpc)

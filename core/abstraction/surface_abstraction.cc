@@ -160,6 +160,7 @@ absl::StatusOr<SurfaceAbstraction> AbstractSurface(
       options.max_boundary_share_smoothed;
   if (surface.report.smoothed) SmoothTaubin(surface.samples, options.smooth);
   surface.transform = NormalizeToUnitArea(surface.samples);
+  surface.repaired = std::move(samples.repaired.mesh);
   surface.report.sample_vertices = surface.samples.num_vertices();
 
   SurfaceGraphOptions edges_only;

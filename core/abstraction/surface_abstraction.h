@@ -55,6 +55,7 @@ struct AbstractionTimes {
 };
 
 struct SurfaceAbstraction {
+  TriangleMesh repaired;  // the input after repair, in its own units
   // The samples: area 1, centred, x_unit = (x - centroid) * scale.
   TriangleMesh samples;
   UnitAreaTransform transform;
