@@ -77,6 +77,9 @@ class Catalog {
   // One item of a scan. kShapeNotFound.
   virtual absl::StatusOr<ScannedGraph> FindGraph(
       std::string_view collection_uid, std::string_view id) const = 0;
+  // The windows of one shape, empty when it has none. kShapeNotFound.
+  virtual absl::StatusOr<std::string> ReadWindows(
+      std::string_view collection_uid, std::string_view id) const = 0;
   // Changes after `after_generation`, ascending. An unknown uid has none.
   virtual absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,

@@ -51,6 +51,14 @@ enum class IfExists {
   kReplace,     // the new one takes its place; uid and create time stay
 };
 
+// What describes a shape's surface beside its graph: sealed bytes that the
+// catalog stores as they are; all empty when the shape has none.
+struct SurfaceDescriptors {
+  std::string signature;     // of the whole
+  std::string window_words;  // of its windows, for the index
+  std::string windows;       // read one shape at a time, ReadWindows
+};
+
 struct ShapePut {
   // Comes with uid and times; the generation is given by the catalog.
   ShapeRecord record;
@@ -58,6 +66,7 @@ struct ShapePut {
   uint32_t graph_version = 0;
   std::string graph;   // SerializeShapeGraph
   std::string labels;  // SerializeFaceLabels
+  SurfaceDescriptors descriptors;
   IfExists if_exists = IfExists::kFail;
   std::string etag;  // of the shape to be replaced; empty: any
   RequestStamp request;
@@ -97,14 +106,17 @@ struct StoredGraph {
   ShapeRecord record;
   uint32_t graph_version = 0;
   std::string graph;
-  std::string labels;  // empty when not asked for
+  std::string signature;  // empty: the shape has none
+  std::string labels;     // empty when not asked for
 };
 
 struct ScannedGraph {
   ShapeRecord record;
   uint32_t graph_version = 0;
   std::string graph;
-  absl::Status status;  // kStoredDataDamaged: `graph` is empty
+  std::string signature;     // empty: the shape has none
+  std::string window_words;  // empty: the shape has none
+  absl::Status status;       // kStoredDataDamaged: all bytes are empty
 };
 
 struct ShapeChange {

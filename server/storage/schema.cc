@@ -91,7 +91,25 @@ CREATE TABLE request_dedup (
 CREATE INDEX request_dedup_expiry ON request_dedup(expire_us);
 )sql";
 
-constexpr const char* kMigrations[] = {kVersion1};
+// The words come before the windows: reading them leaves the windows' pages
+// alone.
+constexpr char kVersion2[] = R"sql(
+CREATE TABLE signature (
+  shape_id       INTEGER PRIMARY KEY REFERENCES shape(id) ON DELETE CASCADE,
+  bytes          BLOB    NOT NULL,
+  crc32c         INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE surface_windows (
+  shape_id       INTEGER PRIMARY KEY REFERENCES shape(id) ON DELETE CASCADE,
+  words          BLOB    NOT NULL,
+  words_crc32c   INTEGER NOT NULL,
+  windows        BLOB    NOT NULL,
+  windows_crc32c INTEGER NOT NULL
+) STRICT;
+)sql";
+
+constexpr const char* kMigrations[] = {kVersion1, kVersion2};
 
 // A copy of the database as it is before the first step.
 absl::Status CopyBefore(SqliteConnection& connection,

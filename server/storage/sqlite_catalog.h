@@ -64,6 +64,8 @@ class SqliteCatalog : public Catalog {
       int limit) const override;
   absl::StatusOr<ScannedGraph> FindGraph(std::string_view collection_uid,
                                          std::string_view id) const override;
+  absl::StatusOr<std::string> ReadWindows(std::string_view collection_uid,
+                                          std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,
       int limit) const override;

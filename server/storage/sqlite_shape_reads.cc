@@ -13,12 +13,18 @@
 namespace argmesh {
 namespace {
 
+// After the shape's columns: its graph and what else the index needs.
+#define ARGMESH_GRAPH_COLUMNS                \
+  ", g.algorithm_version, g.arg, g.crc32c, " \
+  "z.bytes, z.crc32c, w.words, w.words_crc32c "
+#define ARGMESH_GRAPH_JOINS                     \
+  "LEFT JOIN graph g ON g.shape_id = s.id "     \
+  "LEFT JOIN signature z ON z.shape_id = s.id " \
+  "LEFT JOIN surface_windows w ON w.shape_id = s.id "
+
 // A blob and its checksum in the next column.
 absl::StatusOr<std::string> CheckedBlob(const SqliteStatement& row, int column,
                                         const ShapeRecord& record) {
-  if (row.IsNull(column)) {
-    return DamagedRow(record.collection, record.id, "its graph is missing");
-  }
   std::string bytes = row.Blob(column);
   if (ComputeCrc32c(bytes) != row.Int(column + 1)) {
     return DamagedRow(record.collection, record.id,
@@ -27,7 +33,30 @@ absl::StatusOr<std::string> CheckedBlob(const SqliteStatement& row, int column,
   return bytes;
 }
 
-// The row of a query for the shape's columns, then version, arg, crc32c.
+absl::StatusOr<std::string> OptionalBlob(const SqliteStatement& row, int column,
+                                         const ShapeRecord& record) {
+  if (row.IsNull(column)) return std::string();
+  return CheckedBlob(row, column, record);
+}
+
+absl::Status ReadGraphColumns(const SqliteStatement& row,
+                              ScannedGraph& scanned) {
+  const ShapeRecord& record = scanned.record;
+  constexpr int kGraph = kShapeColumns + 1;
+  if (row.IsNull(kGraph)) {
+    return DamagedRow(record.collection, record.id, "its graph is missing");
+  }
+  ARGMESH_ASSIGN_OR_RETURN(std::string graph, CheckedBlob(row, kGraph, record));
+  ARGMESH_ASSIGN_OR_RETURN(std::string signature,
+                           OptionalBlob(row, kGraph + 2, record));
+  ARGMESH_ASSIGN_OR_RETURN(scanned.window_words,
+                           OptionalBlob(row, kGraph + 4, record));
+  scanned.graph = std::move(graph);
+  scanned.signature = std::move(signature);
+  return absl::OkStatus();
+}
+
+// A row of the shape's columns and the graph's.
 ScannedGraph ReadScannedRow(const SqliteStatement& row) {
   ScannedGraph scanned;
   absl::StatusOr<ShapeRow> shape = ReadShapeRow(row);
@@ -39,10 +68,7 @@ ScannedGraph ReadScannedRow(const SqliteStatement& row) {
   }
   scanned.record = std::move(shape->record);
   scanned.graph_version = static_cast<uint32_t>(row.Int(kShapeColumns));
-  absl::StatusOr<std::string> graph =
-      CheckedBlob(row, kShapeColumns + 1, scanned.record);
-  scanned.status = graph.status();
-  if (graph.ok()) scanned.graph = *std::move(graph);
+  scanned.status = ReadGraphColumns(row, scanned);
   return scanned;
 }
 
@@ -76,12 +102,11 @@ absl::Status ReadStoredGraph(SqliteConnection& connection,
                            FindCollectionRow(connection, collection));
   ARGMESH_ASSIGN_OR_RETURN(
       SqliteStatement row,
-      connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
-                       ", g.algorithm_version, g.arg, g.crc32c FROM shape s "
-                       "JOIN collection c ON c.id = s.collection_id "
-                       "LEFT JOIN graph g ON g.shape_id = s.id "
-                       "WHERE s.collection_id = ? AND s.name = ?",
-                       found.number, id));
+      connection.Query(
+          "SELECT " ARGMESH_SHAPE_COLUMNS ARGMESH_GRAPH_COLUMNS "FROM shape s "
+          "JOIN collection c ON c.id = s.collection_id " ARGMESH_GRAPH_JOINS
+          "WHERE s.collection_id = ? AND s.name = ?",
+          found.number, id));
   ARGMESH_ASSIGN_OR_RETURN(const bool has_row, row.Step());
   if (!has_row) return ShapeNotFoundError(collection, id);
   const int64_t shape = row.Int(0);
@@ -90,21 +115,19 @@ absl::Status ReadStoredGraph(SqliteConnection& connection,
   stored.record = std::move(scanned.record);
   stored.graph_version = scanned.graph_version;
   stored.graph = std::move(scanned.graph);
+  stored.signature = std::move(scanned.signature);
   return with_labels ? ReadLabels(connection, shape, stored) : absl::OkStatus();
 }
 
 constexpr char kScan[] =
-    "SELECT " ARGMESH_SHAPE_COLUMNS
-    ", g.algorithm_version, g.arg, g.crc32c FROM collection c "
-    "JOIN shape s ON s.collection_id = c.id "
-    "LEFT JOIN graph g ON g.shape_id = s.id "
+    "SELECT " ARGMESH_SHAPE_COLUMNS ARGMESH_GRAPH_COLUMNS
+    "FROM collection c JOIN shape s ON s.collection_id = "
+    "c.id " ARGMESH_GRAPH_JOINS
     "WHERE c.uid = ? AND s.name > ? ORDER BY s.name LIMIT ?";
 constexpr char kFind[] =
-    "SELECT " ARGMESH_SHAPE_COLUMNS
-    ", g.algorithm_version, g.arg, g.crc32c FROM collection c "
-    "JOIN shape s ON s.collection_id = c.id "
-    "LEFT JOIN graph g ON g.shape_id = s.id "
-    "WHERE c.uid = ? AND s.name = ?";
+    "SELECT " ARGMESH_SHAPE_COLUMNS ARGMESH_GRAPH_COLUMNS
+    "FROM collection c JOIN shape s ON s.collection_id = "
+    "c.id " ARGMESH_GRAPH_JOINS "WHERE c.uid = ? AND s.name = ?";
 
 }  // namespace
 
@@ -196,6 +219,30 @@ absl::StatusOr<ScannedGraph> SqliteCatalog::FindGraph(
         return absl::OkStatus();
       }));
   return scanned;
+}
+
+absl::StatusOr<std::string> SqliteCatalog::ReadWindows(
+    std::string_view collection_uid, std::string_view id) const {
+  std::string windows;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(
+            SqliteStatement row,
+            connection.Query(
+                "SELECT c.name, w.windows, w.windows_crc32c FROM collection c "
+                "JOIN shape s ON s.collection_id = c.id "
+                "LEFT JOIN surface_windows w ON w.shape_id = s.id "
+                "WHERE c.uid = ? AND s.name = ?",
+                collection_uid, id));
+        ARGMESH_ASSIGN_OR_RETURN(const bool found, row.Step());
+        if (!found) return ShapeNotFoundError(collection_uid, id);
+        ShapeRecord record;
+        record.collection = row.Text(0);
+        record.id = id;
+        ARGMESH_ASSIGN_OR_RETURN(windows, OptionalBlob(row, 1, record));
+        return absl::OkStatus();
+      }));
+  return windows;
 }
 
 absl::StatusOr<std::vector<ShapeChange>> SqliteCatalog::ReadChanges(

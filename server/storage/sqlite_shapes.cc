@@ -118,6 +118,34 @@ absl::Status WriteGraph(SqliteConnection& connection, int64_t shape,
       .status();
 }
 
+// In place of what a replaced shape had.
+absl::Status WriteDescriptors(SqliteConnection& connection, int64_t shape,
+                              const SurfaceDescriptors& descriptors) {
+  for (const char* forget :
+       {"DELETE FROM signature WHERE shape_id = ?",
+        "DELETE FROM surface_windows WHERE shape_id = ?"}) {
+    ARGMESH_RETURN_IF_ERROR(connection.Run(forget, shape).status());
+  }
+  if (!descriptors.signature.empty()) {
+    ARGMESH_RETURN_IF_ERROR(
+        connection
+            .Run("INSERT INTO signature (shape_id, bytes, crc32c) "
+                 "VALUES (?, ?, ?)",
+                 shape, SqliteBlob(descriptors.signature),
+                 ComputeCrc32c(descriptors.signature))
+            .status());
+  }
+  if (descriptors.windows.empty()) return absl::OkStatus();
+  return connection
+      .Run(
+          "INSERT INTO surface_windows (shape_id, words, words_crc32c, "
+          "windows, windows_crc32c) VALUES (?, ?, ?, ?, ?)",
+          shape, SqliteBlob(descriptors.window_words),
+          ComputeCrc32c(descriptors.window_words),
+          SqliteBlob(descriptors.windows), ComputeCrc32c(descriptors.windows))
+      .status();
+}
+
 // The mesh of a shape that was replaced or deleted, when it was the last.
 absl::StatusOr<std::vector<Sha256Digest>> DropMesh(SqliteConnection& connection,
                                                    const ShapeRecord& gone) {
@@ -186,6 +214,7 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
                            WriteShapeRow(connection, collection.number,
                                          written.record, bytes, stored));
   ARGMESH_RETURN_IF_ERROR(WriteGraph(connection, shape, put, bytes));
+  ARGMESH_RETURN_IF_ERROR(WriteDescriptors(connection, shape, put.descriptors));
   if (stored) {
     ARGMESH_ASSIGN_OR_RETURN(written.unreferenced,
                              DropMesh(connection, stored->record));
@@ -258,7 +287,11 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
   bytes.details = SerializeShapeDetails(put.record);
   bytes.metadata = SerializeMetadata(put.record.metadata);
   const auto size =
-      static_cast<int64_t>(put.graph.size() + bytes.labels.size()) + kRowBytes;
+      static_cast<int64_t>(put.graph.size() + bytes.labels.size() +
+                           put.descriptors.signature.size() +
+                           put.descriptors.window_words.size() +
+                           put.descriptors.windows.size()) +
+      kRowBytes;
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(

@@ -37,6 +37,9 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(graph);
   put.labels = SerializeFaceLabels(MakeRandomFaceLabels(seed, 300));
+  put.descriptors = {absl::StrFormat("signature %d", seed),
+                     absl::StrFormat("words %d", seed),
+                     absl::StrFormat("windows %d", seed)};
   ShapeRecord& record = put.record;
   record.collection = collection.id;
   record.id = id;

@@ -106,6 +106,8 @@ ScannedGraph MemoryCatalog::Scan(const Shape& shape) {
         MakeError(ErrorReason::kStoredDataDamaged, "the graph is damaged");
   } else {
     scanned.graph = shape.graph;
+    scanned.signature = shape.descriptors.signature;
+    scanned.window_words = shape.descriptors.window_words;
   }
   return scanned;
 }
@@ -215,8 +217,9 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   collection->record.shape_count += replaced ? 0 : 1;
   written.record.generation =
       LogChange(*collection, put.record.id, ShapeChange::Kind::kPut);
-  collection->shapes[put.record.id] = {written.record, put.graph_version,
-                                       put.graph, put.labels, false};
+  collection->shapes[put.record.id] = {written.record,  put.graph_version,
+                                       put.graph,       put.labels,
+                                       put.descriptors, false};
   if (replaced) written.unreferenced = Unreferenced(*replaced);
   Remember(put.request, SerializeShapeWritten(written));
   return written;
@@ -302,7 +305,7 @@ absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
   const ScannedGraph scanned = Scan(it->second);
   ARGMESH_RETURN_IF_ERROR(scanned.status);
   return StoredGraph{scanned.record, scanned.graph_version, scanned.graph,
-                     with_labels ? it->second.labels : ""};
+                     scanned.signature, with_labels ? it->second.labels : ""};
 }
 
 absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
@@ -330,6 +333,17 @@ absl::StatusOr<ScannedGraph> MemoryCatalog::FindGraph(
     return ShapeNotFoundError(collection_uid, id);
   }
   return Scan(found->shapes.find(id)->second);
+}
+
+absl::StatusOr<std::string> MemoryCatalog::ReadWindows(
+    std::string_view collection_uid, std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return CatalogClosedError();
+  const Collection* found = FindUid(collection_uid);
+  if (found == nullptr || !found->shapes.contains(id)) {
+    return ShapeNotFoundError(collection_uid, id);
+  }
+  return found->shapes.find(id)->second.descriptors.windows;
 }
 
 absl::StatusOr<std::vector<ShapeChange>> MemoryCatalog::ReadChanges(

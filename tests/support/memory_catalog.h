@@ -46,6 +46,8 @@ class MemoryCatalog : public Catalog {
       int limit) const override;
   absl::StatusOr<ScannedGraph> FindGraph(std::string_view collection_uid,
                                          std::string_view id) const override;
+  absl::StatusOr<std::string> ReadWindows(std::string_view collection_uid,
+                                          std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,
       int limit) const override;
@@ -66,6 +68,7 @@ class MemoryCatalog : public Catalog {
     uint32_t graph_version = 0;
     std::string graph;
     std::string labels;
+    SurfaceDescriptors descriptors;
     bool damaged = false;
   };
   struct Collection {

@@ -105,6 +105,35 @@ TEST_P(CatalogPortTest, GivesBackAShapeWithItsGraphAndLabels) {
   EXPECT_EQ(after.generation, 1);
 }
 
+TEST_P(CatalogPortTest, GivesBackWhatDescribesTheSurface) {
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  ShapePut put = SamplePut(cups, "red", 1);
+  ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  ASSERT_OK_AND_ASSIGN(const ScannedGraph scanned,
+                       catalog_->FindGraph(cups.uid, "red"));
+  EXPECT_EQ(scanned.signature, put.descriptors.signature);
+  EXPECT_EQ(scanned.window_words, put.descriptors.window_words);
+  ASSERT_OK_AND_ASSIGN(const StoredGraph stored,
+                       catalog_->ReadGraph("cups", "red", false));
+  EXPECT_EQ(stored.signature, put.descriptors.signature);
+  EXPECT_EQ(catalog_->ReadWindows(cups.uid, "red").value(),
+            put.descriptors.windows);
+
+  // A shape that takes its place leaves nothing of it.
+  put.descriptors = {};
+  put.if_exists = IfExists::kReplace;
+  ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  ASSERT_OK_AND_ASSIGN(const ScannedGraph bare,
+                       catalog_->FindGraph(cups.uid, "red"));
+  EXPECT_THAT(bare.status, IsOk());
+  EXPECT_EQ(bare.signature, "");
+  EXPECT_EQ(bare.window_words, "");
+  EXPECT_EQ(catalog_->ReadWindows(cups.uid, "red").value(), "");
+  EXPECT_EQ(ReasonOf(catalog_->ReadWindows(cups.uid, "green").status()),
+            ErrorReason::kShapeNotFound);
+}
+
 TEST_P(CatalogPortTest, NamesWhatIsMissing) {
   const CollectionRecord cups = SampleCollection("cups");
   ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
