@@ -9,9 +9,9 @@
 #include "absl/strings/str_format.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
+#include "core/base/sealed_bytes.h"
 #include "core/base/status_macros.h"
 #include "core/graph/node_codec.h"
-#include "core/graph/sealed_bytes.h"
 
 namespace argmesh {
 namespace {

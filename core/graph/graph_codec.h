@@ -1,7 +1,8 @@
 // The stored bytes of a ShapeGraph and of FaceLabels (docs/formats.md).
 //
 // Versioned, checksummed with CRC-32C, bounds-checked: hostile bytes give
-// kDataLoss and never cost more memory than a small multiple of themselves.
+// kDataLoss and never cost more memory than a small multiple of themselves;
+// another version gives kFailedPrecondition.
 // Serialize then Parse gives the same graph to the bit. Cost O(bytes).
 #ifndef ARGMESH_CORE_GRAPH_GRAPH_CODEC_H_
 #define ARGMESH_CORE_GRAPH_GRAPH_CODEC_H_

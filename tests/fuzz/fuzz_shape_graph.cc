@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/sealed_bytes.h"
 #include "core/graph/graph_codec.h"
-#include "core/graph/sealed_bytes.h"
 #include "core/graph/shape_graph.h"
 #include "core/matching/match.h"
 

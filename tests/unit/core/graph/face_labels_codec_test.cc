@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/base/random.h"
+#include "core/base/sealed_bytes.h"
 #include "core/graph/graph_codec.h"
-#include "core/graph/sealed_bytes.h"
 #include "tests/support/random_graph.h"
 #include "tests/support/status_matchers.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/base/byte_writer.h"
 #include "core/base/random.h"
-#include "core/graph/sealed_bytes.h"
+#include "core/base/sealed_bytes.h"
 #include "tests/support/random_graph.h"
 #include "tests/support/status_matchers.h"
 

@@ -1,4 +1,4 @@
-#include "core/graph/sealed_bytes.h"
+#include "core/base/sealed_bytes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(SealedBytes, GiveThePayloadBack) {
 TEST(SealedBytes, NameTheVersionThatIsNotRead) {
   const std::string sealed = SealBytes("TEST", 4, "payload");
   EXPECT_THAT(OpenSealedBytes("thing", "TEST", 3, sealed),
-              StatusIs(absl::StatusCode::kDataLoss,
+              StatusIs(absl::StatusCode::kFailedPrecondition,
                        HasSubstr("thing: version 4, this program reads")));
 }
 

@@ -1,7 +1,7 @@
 // The envelope of stored bytes: magic, version, length and CRC-32C in front
 // of a payload.
-#ifndef ARGMESH_CORE_GRAPH_SEALED_BYTES_H_
-#define ARGMESH_CORE_GRAPH_SEALED_BYTES_H_
+#ifndef ARGMESH_CORE_BASE_SEALED_BYTES_H_
+#define ARGMESH_CORE_BASE_SEALED_BYTES_H_
 
 #include <cstdint>
 #include <string>
@@ -20,8 +20,9 @@ std::string SealBytes(std::string_view magic, uint32_t version,
 
 // The payload, a view into `bytes`.
 //
-// Fails    kDataLoss  another magic, version or length, or a wrong checksum;
-//                     `what` names the data in the message
+// Fails    kFailedPrecondition  another version
+//          kDataLoss            another magic or length, or a wrong checksum
+// `what` names the data in the message.
 absl::StatusOr<std::string_view> OpenSealedBytes(std::string_view what,
                                                  std::string_view magic,
                                                  uint32_t version,
@@ -29,4 +30,4 @@ absl::StatusOr<std::string_view> OpenSealedBytes(std::string_view what,
 
 }  // namespace argmesh
 
-#endif  // ARGMESH_CORE_GRAPH_SEALED_BYTES_H_
+#endif  // ARGMESH_CORE_BASE_SEALED_BYTES_H_

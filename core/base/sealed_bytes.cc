@@ -1,4 +1,4 @@
-#include "core/graph/sealed_bytes.h"
+#include "core/base/sealed_bytes.h"
 
 #include <cstdint>
 #include <string>
@@ -47,11 +47,6 @@ absl::StatusOr<std::string_view> OpenSealedBytes(std::string_view what,
         absl::StrFormat("%s: wrong magic", std::string(what)));
   }
   ARGMESH_ASSIGN_OR_RETURN(const uint32_t found_version, reader.ReadU32());
-  if (found_version != version) {
-    return absl::DataLossError(
-        absl::StrFormat("%s: version %d, this program reads version %d",
-                        std::string(what), found_version, version));
-  }
   ARGMESH_ASSIGN_OR_RETURN(const uint64_t length, reader.ReadU64());
   ARGMESH_ASSIGN_OR_RETURN(const uint32_t checksum, reader.ReadU32());
   if (length != reader.remaining()) {
@@ -63,6 +58,12 @@ absl::StatusOr<std::string_view> OpenSealedBytes(std::string_view what,
   if (Checksum(bytes.substr(0, kSealBytes - 4), payload) != checksum) {
     return absl::DataLossError(
         absl::StrFormat("%s: checksum does not match", std::string(what)));
+  }
+  // After the checksum: a damaged version is damage.
+  if (found_version != version) {
+    return absl::FailedPreconditionError(
+        absl::StrFormat("%s: version %d, this program reads version %d",
+                        std::string(what), found_version, version));
   }
   return payload;
 }
