@@ -13,11 +13,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/base/stop_token.h"
+#include "core/containment/prepared_target.h"
 #include "core/containment/window_set.h"
 #include "core/containment/window_votes.h"
 
@@ -39,21 +38,6 @@ struct ContainmentMatch {
   double target_coverage = 0;  // share of the target's area under the query
 };
 
-// A target laid out for verification. Immutable, about 0.7 MB; thread-safe.
-class PreparedTarget {
- public:
-  explicit PreparedTarget(const TargetWindows& windows);
-  ~PreparedTarget();
-  PreparedTarget(PreparedTarget&&) noexcept;
-  PreparedTarget& operator=(PreparedTarget&&) noexcept;
-
-  struct Impl;
-  const Impl& impl() const { return *impl_; }
-
- private:
-  std::unique_ptr<Impl> impl_;
-};
-
 struct VerifyOptions {
   bool thorough = true;  // 400 transforms tried, not 80; 5 refined, not 2
   bool flipped = false;
@@ -65,11 +49,6 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(
     const QueryWindows& query, const PreparedTarget& target,
     const ShapeVotes& votes, const VerifyOptions& options = {},
     const StopToken& stop = {});
-
-// Which of the target's `points` lie under the query.
-std::vector<bool> CoveredPoints(const QueryWindows& query,
-                                const TargetWindows& target,
-                                const ContainmentMatch& match);
 
 }  // namespace argmesh
 

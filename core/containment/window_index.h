@@ -30,6 +30,11 @@
 
 namespace argmesh {
 
+inline constexpr int64_t kMaxWindowSlot = 10'000'000;
+
+// A query window as the index sees it.
+struct SoftWindow;
+
 struct VoteOptions {
   int limit = 150;       // shapes returned, >= 1
   bool flipped = false;  // look for the query turned inside out
@@ -37,8 +42,8 @@ struct VoteOptions {
 
 class WindowIndex {
  public:
-  // Slots are dense numbers of the caller's, 0 .. 10,000,000. Takes the place
-  // of what the slot stood for before.
+  // Slots are dense numbers of the caller's, 0 .. kMaxWindowSlot. Takes the
+  // place of what the slot stood for before.
   void Set(int64_t slot, const WindowWords& words);
   void Erase(int64_t slot);  // nothing when it is empty
 
@@ -54,6 +59,10 @@ class WindowIndex {
   struct Block;
 
   Block& MutableBlock(int64_t slot);
+  absl::StatusOr<std::vector<double>> CommonShares(
+      const std::vector<SoftWindow>& windows, const StopToken& stop) const;
+  void VoteInBlock(size_t number, const std::vector<SoftWindow>& windows,
+                   VoteResult& result) const;
 
   std::vector<std::shared_ptr<Block>> blocks_;
   int64_t size_ = 0;

@@ -25,6 +25,9 @@ inline constexpr double kFirstTargetRadius = 0.03;
 inline constexpr int kNumQueryLevels = 7;
 inline constexpr double kFirstQueryRadius = 0.06;
 
+inline constexpr int kMaxLevelWindows = 4000;
+inline constexpr int kMaxTargetPoints = 32768;
+
 // x_own = origin + x / scale.
 struct WindowFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

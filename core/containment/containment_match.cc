@@ -1,0 +1,209 @@
+#include "core/containment/containment_match.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/base/random.h"
+#include "core/base/status_macros.h"
+#include "core/containment/query_weights.h"
+#include "core/containment/sampled_surface.h"
+#include "core/containment/similarity.h"
+#include "core/containment/window_pairs.h"
+
+namespace argmesh {
+namespace {
+
+// Lengths in units of the query's size, sqrt(area).
+constexpr float kCoarse = 0.06F;
+constexpr float kFine = 0.02F;
+constexpr double kVerifiedCover = 0.95;
+
+constexpr size_t kShiftsTried = 2;
+constexpr int kDrawsPerPlace = 10;
+// Samples: a glance, a look, C and F.
+constexpr size_t kGlance = 16;
+constexpr size_t kLook = 64;
+constexpr size_t kCoarseSamples = 256;
+constexpr size_t kFineSamples = 600;
+constexpr float kWorthFine = 0.3F;  // C that is refined further
+constexpr float kSettled = 0.97F;   // F at which no further shift is tried
+constexpr float kPlainHit = 0.92F;  // a look at which drawing stops
+
+struct Effort {
+  int places;   // looked at for each shift
+  size_t refined;
+};
+constexpr Effort kQuick{80, 2};
+constexpr Effort kThorough{400, 5};
+
+struct Placed {
+  float cover = 0;
+  Similarity place;
+};
+
+// Best first; equal covers stay in the order they were drawn in.
+std::vector<Placed> LookAtPlaces(const WindowPairs& pairs,
+                                 const LaidSurface& laid,
+                                 const SampledSurface& target, int count,
+                                 Random& random) {
+  std::vector<Placed> placed;
+  float best = 0;
+  for (int draw = 0; draw < count * kDrawsPerPlace &&
+                     static_cast<int>(placed.size()) < count;
+       ++draw) {
+    const std::optional<Similarity> place = pairs.Draw(random);
+    if (!place) continue;
+    constexpr float kTau = 1.3F * kCoarse;
+    const float glance = Cover(*place, laid, 0, kGlance, target, kTau);
+    if (glance < 0.6F * best - 0.05F) {
+      placed.push_back({0, *place});
+      continue;
+    }
+    const float rest = Cover(*place, laid, kGlance, kLook, target, kTau);
+    const float cover =
+        (glance * kGlance + rest * (kLook - kGlance)) / float{kLook};
+    placed.push_back({cover, *place});
+    best = std::max(best, cover);
+    if (best > kPlainHit) break;
+  }
+  std::stable_sort(
+      placed.begin(), placed.end(),
+      [](const Placed& a, const Placed& b) { return a.cover > b.cover; });
+  return placed;
+}
+
+struct Refinement {
+  int steps;
+  size_t samples;
+  float tau;
+  float shrink;
+  float least_tau;
+};
+constexpr Refinement kCoarseRefinement{6, 160, 1.5F * kCoarse, 0.8F,
+                                       0.5F * kCoarse};
+constexpr Refinement kFineRefinement{6, 400, 0.5F * kCoarse, 0.7F,
+                                     0.7F * kFine};
+
+void Refine(const Refinement& refinement, const LaidSurface& laid,
+            const SampledSurface& target, float expected_scale,
+            Similarity& place) {
+  float tau = refinement.tau;
+  for (int i = 0; i < refinement.steps; ++i) {
+    if (!AlignStep(laid, refinement.samples, target, tau, expected_scale,
+                   place)) {
+      return;
+    }
+    tau = std::max(refinement.least_tau, refinement.shrink * tau);
+  }
+}
+
+// The best places of a query on a target at two finenesses.
+struct Found {
+  float coarse = 0;
+  float fine = 0;
+  Similarity place;  // of `fine`; of `coarse` while fine is 0
+};
+
+void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
+              const SampledSurface& target, const Effort& effort,
+              Random& random, Found& found) {
+  const float scale = ShiftScale(shift);
+  std::vector<Placed> placed =
+      LookAtPlaces(pairs, laid, target, effort.places, random);
+  placed.resize(std::min(placed.size(), effort.refined));
+  Placed best;
+  for (Placed& candidate : placed) {
+    Refine(kCoarseRefinement, laid, target, scale, candidate.place);
+    candidate.cover =
+        Cover(candidate.place, laid, 0, kCoarseSamples, target, kCoarse);
+    if (candidate.cover > best.cover) best = candidate;
+  }
+  if (best.cover <= 0) return;
+  if (best.cover > found.coarse) {
+    found.coarse = best.cover;
+    if (found.fine <= 0) found.place = best.place;
+  }
+  if (best.cover < kWorthFine) return;
+  Similarity refined = best.place;
+  Refine(kFineRefinement, laid, target, scale, refined);
+  for (const Similarity& place : {refined, best.place}) {
+    const float fine = Cover(place, laid, 0, kFineSamples, target, kFine);
+    if (fine > found.fine) {
+      found.fine = fine;
+      found.place = place;
+    }
+  }
+}
+
+std::array<int, kShiftsTried> BestShifts(const ShapeVotes& votes) {
+  std::array<int, kNumShifts> order{};
+  for (int i = 0; i < kNumShifts; ++i) order[static_cast<size_t>(i)] = i;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return votes.by_shift[static_cast<size_t>(a)] >
+           votes.by_shift[static_cast<size_t>(b)];
+  });
+  return {order[0], order[1]};
+}
+
+// From the frames of the windows to the meshes' own units.
+Eigen::Matrix4d OwnUnits(const Similarity& place, const WindowFrame& query,
+                         const WindowFrame& target) {
+  Eigen::Matrix4d from = Eigen::Matrix4d::Identity();
+  from.topLeftCorner<3, 3>() *= query.scale;
+  from.topRightCorner<3, 1>() = -query.scale * query.origin;
+  Eigen::Matrix4d between = Eigen::Matrix4d::Identity();
+  between.topLeftCorner<3, 3>() =
+      place.scale * place.rotation.cast<double>();
+  between.topRightCorner<3, 1>() = place.shift.cast<double>();
+  Eigen::Matrix4d to = Eigen::Matrix4d::Identity();
+  to.topLeftCorner<3, 3>() /= target.scale;
+  to.topRightCorner<3, 1>() = target.origin;
+  return to * between * from;
+}
+
+double Power8(double x) {
+  const double x2 = x * x;
+  return x2 * x2 * (x2 * x2);
+}
+
+}  // namespace
+
+absl::StatusOr<ContainmentMatch> VerifyContainment(
+    const QueryWindows& query, const PreparedTarget& target,
+    const ShapeVotes& votes, const VerifyOptions& options,
+    const StopToken& stop) {
+  const LaidSurface laid = MakeLaidSurface(query, options.flipped);
+  const Effort& effort = options.thorough ? kThorough : kQuick;
+  Random random(options.seed);
+  Found found;
+  for (const int shift : BestShifts(votes)) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    const WindowPairs pairs(query, options.flipped, target, shift);
+    if (pairs.empty()) continue;
+    TryShift(shift, pairs, laid, target.surface, effort, random, found);
+    if (found.fine > kSettled) break;
+  }
+  ContainmentMatch match;
+  match.votes = votes.score;
+  match.coarse_cover = found.coarse;
+  match.fine_cover = found.fine;
+  match.score = match.votes + 2 * Power8(match.fine_cover);
+  match.verified = match.fine_cover >= kVerifiedCover;
+  match.flipped = options.flipped;
+  if (found.coarse > 0) {
+    match.transform = OwnUnits(found.place, query.frame, target.frame);
+    match.query_coverage =
+        std::min(1.0F, Cover(found.place, laid, 0, laid.points.size(),
+                             target.surface, kFine));
+    match.target_coverage =
+        std::min(1.0, match.query_coverage * found.place.scale *
+                          static_cast<double>(found.place.scale));
+  }
+  return match;
+}
+
+}  // namespace argmesh

@@ -1,0 +1,265 @@
+#include "core/containment/containment_ranking.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_format.h"
+#include "core/base/status_macros.h"
+#include "core/containment/prepared_target.h"
+
+namespace argmesh {
+namespace {
+
+constexpr double kDistinctive = 0.4;  // windows say enough
+constexpr double kCovered = 0.9;      // F that counts as lying on a shape
+constexpr double kCommonShare = 0.1;  // of verified shapes: too many
+constexpr double kTieMargin = 0.1;    // of scores
+constexpr float kSettled = 0.98F;     // F that more effort cannot raise much
+
+class Stopwatch {
+ public:
+  // Seconds since it was made or last read.
+  double Lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ =
+      std::chrono::steady_clock::now();
+};
+
+absl::Status CheckLimit(const char* name, int value) {
+  if (value >= 1) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrFormat("%s is %d, at least 1", name, value));
+}
+
+absl::Status CheckOptions(const RankContainmentOptions& options) {
+  ARGMESH_RETURN_IF_ERROR(CheckLimit("limit", options.limit));
+  ARGMESH_RETURN_IF_ERROR(CheckLimit("exact_limit", options.exact_limit));
+  ARGMESH_RETURN_IF_ERROR(CheckLimit("verify_limit", options.verify_limit));
+  ARGMESH_RETURN_IF_ERROR(CheckLimit("thorough_limit", options.thorough_limit));
+  return absl::OkStatus();
+}
+
+// One shape on its way through the chain.
+struct Candidate {
+  ShapeVotes votes;
+  std::shared_ptr<const TargetWindows> windows;
+  ContainmentMatch match;
+};
+
+// body(candidate) for every candidate; the first error in their order.
+absl::Status ForEach(const ParallelFor& parallel_for,
+                     std::span<Candidate> candidates,
+                     const std::function<absl::Status(Candidate&)>& body) {
+  std::vector<absl::Status> statuses(candidates.size());
+  const auto run = [&](int64_t i) {
+    const auto at = static_cast<size_t>(i);
+    statuses[at] = body(candidates[at]);
+  };
+  const auto count = static_cast<int64_t>(candidates.size());
+  if (parallel_for) {
+    parallel_for(count, run);
+  } else {
+    for (int64_t i = 0; i < count; ++i) run(i);
+  }
+  for (const absl::Status& status : statuses) ARGMESH_RETURN_IF_ERROR(status);
+  return absl::OkStatus();
+}
+
+template <typename Score>
+void KeepBest(std::vector<Candidate>& candidates, int limit, Score score) {
+  std::sort(candidates.begin(), candidates.end(),
+            [&](const Candidate& a, const Candidate& b) {
+              const double x = score(a);
+              const double y = score(b);
+              return x != y ? x > y : a.votes.slot < b.votes.slot;
+            });
+  candidates.resize(
+      std::min(candidates.size(), static_cast<size_t>(limit)));
+}
+
+class Chain {
+ public:
+  Chain(const QueryWindows& query, const WindowIndex& index,
+        const LoadWindows& load, const RankContainmentOptions& options,
+        const ParallelFor& parallel_for, const StopToken& stop, bool flipped)
+      : query_(query),
+        index_(index),
+        load_(load),
+        options_(options),
+        parallel_for_(parallel_for),
+        stop_(stop),
+        flipped_(flipped) {}
+
+  absl::StatusOr<ContainmentRanking> Run() {
+    Stopwatch watch;
+    VoteOptions vote_options;
+    vote_options.limit = std::max(options_.exact_limit, options_.limit);
+    vote_options.flipped = flipped_;
+    ARGMESH_ASSIGN_OR_RETURN(votes_, index_.Vote(query_, vote_options, stop_));
+    ContainmentRanking ranking;
+    ranking.considered = index_.size();
+    ranking.distinctiveness = votes_.distinctiveness;
+    ranking.index_seconds = watch.Lap();
+    ARGMESH_RETURN_IF_ERROR(VoteOnWindows());
+    ranking.loaded = static_cast<int64_t>(candidates_.size());
+    ranking.exact_seconds = watch.Lap();
+    ARGMESH_RETURN_IF_ERROR(Verify());
+    ranking.common_share = CommonShare();
+    Report(ranking);
+    ranking.verify_seconds = watch.Lap();
+    return ranking;
+  }
+
+ private:
+  absl::Status VoteOnWindows() {
+    for (const ShapeVotes& votes : votes_.shapes) {
+      candidates_.push_back({votes, nullptr, {}});
+    }
+    ARGMESH_RETURN_IF_ERROR(
+        ForEach(parallel_for_, candidates_, [this](Candidate& candidate) {
+          ARGMESH_RETURN_IF_ERROR(stop_.Check());
+          ARGMESH_ASSIGN_OR_RETURN(candidate.windows,
+                                   load_(candidate.votes.slot));
+          if (candidate.windows == nullptr) return absl::OkStatus();
+          const int64_t slot = candidate.votes.slot;
+          candidate.votes =
+              VoteExactly(query_, votes_, flipped_, *candidate.windows);
+          candidate.votes.slot = slot;
+          candidate.match.votes = candidate.votes.score;
+          candidate.match.score = candidate.votes.score;
+          candidate.match.flipped = flipped_;
+          return absl::OkStatus();
+        }));
+    std::erase_if(candidates_, [](const Candidate& candidate) {
+      return candidate.windows == nullptr;
+    });
+    KeepBest(candidates_, options_.exact_limit,
+             [](const Candidate& c) { return c.votes.score; });
+    return absl::OkStatus();
+  }
+
+  absl::Status Verify() {
+    num_verified_ = std::min(candidates_.size(),
+                             static_cast<size_t>(options_.verify_limit));
+    ARGMESH_RETURN_IF_ERROR(VerifyFirst(num_verified_, /*thorough=*/false));
+    const auto verified = candidates_.begin() +
+                          static_cast<std::ptrdiff_t>(num_verified_);
+    std::sort(candidates_.begin(), verified,
+              [](const Candidate& a, const Candidate& b) {
+                const double x = Promise(a.match);
+                const double y = Promise(b.match);
+                return x != y ? x > y : a.votes.slot < b.votes.slot;
+              });
+    return VerifyFirst(std::min(num_verified_, static_cast<size_t>(
+                                                   options_.thorough_limit)),
+                       /*thorough=*/true);
+  }
+
+  static double Promise(const ContainmentMatch& match) {
+    return match.votes + match.coarse_cover + match.fine_cover;
+  }
+
+  absl::Status VerifyFirst(size_t count, bool thorough) {
+    return ForEach(
+        parallel_for_, std::span(candidates_).first(count),
+        [this, thorough](Candidate& candidate) {
+          if (candidate.match.fine_cover >= kSettled) return absl::OkStatus();
+          VerifyOptions verify;
+          verify.thorough = thorough;
+          verify.flipped = flipped_;
+          verify.seed = options_.seed + (thorough ? 1 : 0);
+          const PreparedTarget target(*candidate.windows);
+          ARGMESH_ASSIGN_OR_RETURN(
+              const ContainmentMatch match,
+              VerifyContainment(query_, target, candidate.votes, verify,
+                                stop_));
+          if (match.score >= candidate.match.score) candidate.match = match;
+          return absl::OkStatus();
+        });
+  }
+
+  double CommonShare() const {
+    if (num_verified_ == 0) return 0;
+    const auto covered = std::count_if(
+        candidates_.begin(),
+        candidates_.begin() + static_cast<std::ptrdiff_t>(num_verified_),
+        [](const Candidate& c) { return c.match.fine_cover > kCovered; });
+    return static_cast<double>(covered) / static_cast<double>(num_verified_);
+  }
+
+  void Report(ContainmentRanking& ranking) {
+    ranking.generic = ranking.distinctiveness < kDistinctive &&
+                      ranking.common_share > kCommonShare;
+    KeepBest(candidates_, options_.limit,
+             [](const Candidate& c) { return c.match.score; });
+    for (const Candidate& candidate : candidates_) {
+      ranking.matches.push_back({candidate.votes.slot, candidate.match, false});
+    }
+    MarkTies(ranking.matches);
+  }
+
+  static void MarkTies(std::vector<RankedContainment>& matches) {
+    if (matches.size() < 2 || !matches[0].match.verified) return;
+    for (size_t i = 1; i < matches.size(); ++i) {
+      const ContainmentMatch& match = matches[i].match;
+      if (!match.verified ||
+          match.score < matches[0].match.score - kTieMargin) {
+        continue;
+      }
+      matches[0].tied = matches[i].tied = true;
+    }
+  }
+
+  const QueryWindows& query_;
+  const WindowIndex& index_;
+  const LoadWindows& load_;
+  const RankContainmentOptions& options_;
+  const ParallelFor& parallel_for_;
+  const StopToken& stop_;
+  const bool flipped_;
+  VoteResult votes_;
+  std::vector<Candidate> candidates_;
+  size_t num_verified_ = 0;
+};
+
+bool AnyVerified(const ContainmentRanking& ranking) {
+  return std::any_of(
+      ranking.matches.begin(), ranking.matches.end(),
+      [](const RankedContainment& ranked) { return ranked.match.verified; });
+}
+
+}  // namespace
+
+absl::StatusOr<ContainmentRanking> RankContainment(
+    const QueryWindows& query, const WindowIndex& index,
+    const LoadWindows& load, const RankContainmentOptions& options,
+    const ParallelFor& parallel_for, const StopToken& stop) {
+  ARGMESH_RETURN_IF_ERROR(CheckOptions(options));
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainmentRanking ranking,
+      Chain(query, index, load, options, parallel_for, stop, false).Run());
+  if (!options.try_flipped || AnyVerified(ranking)) return ranking;
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainmentRanking flipped,
+      Chain(query, index, load, options, parallel_for, stop, true).Run());
+  ContainmentRanking& answer = AnyVerified(flipped) ? flipped : ranking;
+  const ContainmentRanking& other = AnyVerified(flipped) ? ranking : flipped;
+  answer.index_seconds += other.index_seconds;
+  answer.exact_seconds += other.exact_seconds;
+  answer.verify_seconds += other.verify_seconds;
+  return answer;
+}
+
+}  // namespace argmesh

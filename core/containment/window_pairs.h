@@ -1,0 +1,46 @@
+// Places of a query on a target that two pairs of matching windows agree on.
+#ifndef ARGMESH_CORE_CONTAINMENT_WINDOW_PAIRS_H_
+#define ARGMESH_CORE_CONTAINMENT_WINDOW_PAIRS_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/containment/prepared_target.h"
+#include "core/containment/similarity.h"
+#include "core/containment/window_set.h"
+
+namespace argmesh {
+
+// A window of the query and one of the target that looks alike.
+struct WindowMatch {
+  const QueryWindow* query = nullptr;
+  Eigen::Vector3f target_position;
+  Eigen::Vector3f target_normal;
+};
+
+class WindowPairs {
+ public:
+  // The three nearest target windows of each query window under a shift.
+  WindowPairs(const QueryWindows& query, bool flipped,
+              const PreparedTarget& target, int shift);
+
+  bool empty() const { return matches_.size() < 3; }
+
+  // The place that two drawn matches agree on, if they do: alike windows are
+  // drawn more often; distances and angles between them must correspond.
+  std::optional<Similarity> Draw(Random& random) const;
+
+ private:
+  const WindowMatch& DrawMatch(Random& random) const;
+
+  bool flipped_;
+  float expected_scale_;
+  std::vector<WindowMatch> matches_;
+  std::vector<double> cumulative_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_CORE_CONTAINMENT_WINDOW_PAIRS_H_
