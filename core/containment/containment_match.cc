@@ -34,7 +34,7 @@ constexpr float kSettled = 0.97F;   // F at which no further shift is tried
 constexpr float kPlainHit = 0.92F;  // a look at which drawing stops
 
 struct Effort {
-  int places;   // looked at for each shift
+  int places;  // looked at for each shift
   size_t refined;
 };
 constexpr Effort kQuick{80, 2};
@@ -52,8 +52,8 @@ std::vector<Placed> LookAtPlaces(const WindowPairs& pairs,
                                  Random& random) {
   std::vector<Placed> placed;
   float best = 0;
-  for (int draw = 0; draw < count * kDrawsPerPlace &&
-                     static_cast<int>(placed.size()) < count;
+  for (int draw = 0;
+       draw < count * kDrawsPerPlace && static_cast<int>(placed.size()) < count;
        ++draw) {
     const std::optional<Similarity> place = pairs.Draw(random);
     if (!place) continue;
@@ -156,8 +156,7 @@ Eigen::Matrix4d OwnUnits(const Similarity& place, const WindowFrame& query,
   from.topLeftCorner<3, 3>() *= query.scale;
   from.topRightCorner<3, 1>() = -query.scale * query.origin;
   Eigen::Matrix4d between = Eigen::Matrix4d::Identity();
-  between.topLeftCorner<3, 3>() =
-      place.scale * place.rotation.cast<double>();
+  between.topLeftCorner<3, 3>() = place.scale * place.rotation.cast<double>();
   between.topRightCorner<3, 1>() = place.shift.cast<double>();
   Eigen::Matrix4d to = Eigen::Matrix4d::Identity();
   to.topLeftCorner<3, 3>() /= target.scale;
@@ -172,10 +171,11 @@ double Power8(double x) {
 
 }  // namespace
 
-absl::StatusOr<ContainmentMatch> VerifyContainment(
-    const QueryWindows& query, const PreparedTarget& target,
-    const ShapeVotes& votes, const VerifyOptions& options,
-    const StopToken& stop) {
+absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
+                                                   const PreparedTarget& target,
+                                                   const ShapeVotes& votes,
+                                                   const VerifyOptions& options,
+                                                   const StopToken& stop) {
   const LaidSurface laid = MakeLaidSurface(query, options.flipped);
   const Effort& effort = options.thorough ? kThorough : kQuick;
   Random random(options.seed);
@@ -196,9 +196,9 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(
   match.flipped = options.flipped;
   if (found.coarse > 0) {
     match.transform = OwnUnits(found.place, query.frame, target.frame);
-    match.query_coverage =
-        std::min(1.0F, Cover(found.place, laid, 0, laid.points.size(),
-                             target.surface, kFine));
+    match.query_coverage = std::min(
+        1.0F,
+        Cover(found.place, laid, 0, laid.points.size(), target.surface, kFine));
     match.target_coverage =
         std::min(1.0, match.query_coverage * found.place.scale *
                           static_cast<double>(found.place.scale));

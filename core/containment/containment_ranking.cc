@@ -59,7 +59,7 @@ struct Candidate {
 };
 
 // body(candidate) for every candidate; the first error in their order.
-absl::Status ForEach(const ParallelFor& parallel_for,
+absl::Status ForEach(const ParallelRunner& parallel_for,
                      std::span<Candidate> candidates,
                      const std::function<absl::Status(Candidate&)>& body) {
   std::vector<absl::Status> statuses(candidates.size());
@@ -85,15 +85,14 @@ void KeepBest(std::vector<Candidate>& candidates, int limit, Score score) {
               const double y = score(b);
               return x != y ? x > y : a.votes.slot < b.votes.slot;
             });
-  candidates.resize(
-      std::min(candidates.size(), static_cast<size_t>(limit)));
+  candidates.resize(std::min(candidates.size(), static_cast<size_t>(limit)));
 }
 
 class Chain {
  public:
   Chain(const QueryWindows& query, const WindowIndex& index,
         const LoadWindows& load, const RankContainmentOptions& options,
-        const ParallelFor& parallel_for, const StopToken& stop, bool flipped)
+        const ParallelRunner& parallel_for, const StopToken& stop, bool flipped)
       : query_(query),
         index_(index),
         load_(load),
@@ -123,25 +122,40 @@ class Chain {
   }
 
  private:
+  absl::Status VoteOn(Candidate& candidate) const {
+    ARGMESH_RETURN_IF_ERROR(stop_.Check());
+    const int64_t slot = candidate.votes.slot;
+    ARGMESH_ASSIGN_OR_RETURN(candidate.windows, load_(slot));
+    if (candidate.windows == nullptr) return absl::OkStatus();
+    candidate.votes = VoteExactly(query_, votes_, flipped_, *candidate.windows);
+    candidate.votes.slot = slot;
+    candidate.match.votes = candidate.votes.score;
+    candidate.match.score = candidate.votes.score;
+    candidate.match.flipped = flipped_;
+    return absl::OkStatus();
+  }
+
+  absl::Status VerifyOne(Candidate& candidate, bool thorough) const {
+    if (candidate.match.fine_cover >= kSettled) return absl::OkStatus();
+    VerifyOptions verify;
+    verify.thorough = thorough;
+    verify.flipped = flipped_;
+    verify.seed = options_.seed + (thorough ? 1 : 0);
+    const PreparedTarget target(*candidate.windows);
+    ARGMESH_ASSIGN_OR_RETURN(
+        const ContainmentMatch match,
+        VerifyContainment(query_, target, candidate.votes, verify, stop_));
+    if (match.score >= candidate.match.score) candidate.match = match;
+    return absl::OkStatus();
+  }
+
   absl::Status VoteOnWindows() {
     for (const ShapeVotes& votes : votes_.shapes) {
       candidates_.push_back({votes, nullptr, {}});
     }
     ARGMESH_RETURN_IF_ERROR(
-        ForEach(parallel_for_, candidates_, [this](Candidate& candidate) {
-          ARGMESH_RETURN_IF_ERROR(stop_.Check());
-          ARGMESH_ASSIGN_OR_RETURN(candidate.windows,
-                                   load_(candidate.votes.slot));
-          if (candidate.windows == nullptr) return absl::OkStatus();
-          const int64_t slot = candidate.votes.slot;
-          candidate.votes =
-              VoteExactly(query_, votes_, flipped_, *candidate.windows);
-          candidate.votes.slot = slot;
-          candidate.match.votes = candidate.votes.score;
-          candidate.match.score = candidate.votes.score;
-          candidate.match.flipped = flipped_;
-          return absl::OkStatus();
-        }));
+        ForEach(parallel_for_, candidates_,
+                [this](Candidate& candidate) { return VoteOn(candidate); }));
     std::erase_if(candidates_, [](const Candidate& candidate) {
       return candidate.windows == nullptr;
     });
@@ -154,17 +168,17 @@ class Chain {
     num_verified_ = std::min(candidates_.size(),
                              static_cast<size_t>(options_.verify_limit));
     ARGMESH_RETURN_IF_ERROR(VerifyFirst(num_verified_, /*thorough=*/false));
-    const auto verified = candidates_.begin() +
-                          static_cast<std::ptrdiff_t>(num_verified_);
+    const auto verified =
+        candidates_.begin() + static_cast<std::ptrdiff_t>(num_verified_);
     std::sort(candidates_.begin(), verified,
               [](const Candidate& a, const Candidate& b) {
                 const double x = Promise(a.match);
                 const double y = Promise(b.match);
                 return x != y ? x > y : a.votes.slot < b.votes.slot;
               });
-    return VerifyFirst(std::min(num_verified_, static_cast<size_t>(
-                                                   options_.thorough_limit)),
-                       /*thorough=*/true);
+    return VerifyFirst(
+        std::min(num_verified_, static_cast<size_t>(options_.thorough_limit)),
+        /*thorough=*/true);
   }
 
   static double Promise(const ContainmentMatch& match) {
@@ -172,22 +186,10 @@ class Chain {
   }
 
   absl::Status VerifyFirst(size_t count, bool thorough) {
-    return ForEach(
-        parallel_for_, std::span(candidates_).first(count),
-        [this, thorough](Candidate& candidate) {
-          if (candidate.match.fine_cover >= kSettled) return absl::OkStatus();
-          VerifyOptions verify;
-          verify.thorough = thorough;
-          verify.flipped = flipped_;
-          verify.seed = options_.seed + (thorough ? 1 : 0);
-          const PreparedTarget target(*candidate.windows);
-          ARGMESH_ASSIGN_OR_RETURN(
-              const ContainmentMatch match,
-              VerifyContainment(query_, target, candidate.votes, verify,
-                                stop_));
-          if (match.score >= candidate.match.score) candidate.match = match;
-          return absl::OkStatus();
-        });
+    return ForEach(parallel_for_, std::span(candidates_).first(count),
+                   [this, thorough](Candidate& candidate) {
+                     return VerifyOne(candidate, thorough);
+                   });
   }
 
   double CommonShare() const {
@@ -226,7 +228,7 @@ class Chain {
   const WindowIndex& index_;
   const LoadWindows& load_;
   const RankContainmentOptions& options_;
-  const ParallelFor& parallel_for_;
+  const ParallelRunner& parallel_for_;
   const StopToken& stop_;
   const bool flipped_;
   VoteResult votes_;
@@ -245,7 +247,7 @@ bool AnyVerified(const ContainmentRanking& ranking) {
 absl::StatusOr<ContainmentRanking> RankContainment(
     const QueryWindows& query, const WindowIndex& index,
     const LoadWindows& load, const RankContainmentOptions& options,
-    const ParallelFor& parallel_for, const StopToken& stop) {
+    const ParallelRunner& parallel_for, const StopToken& stop) {
   ARGMESH_RETURN_IF_ERROR(CheckOptions(options));
   ARGMESH_ASSIGN_OR_RETURN(
       ContainmentRanking ranking,

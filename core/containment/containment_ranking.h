@@ -66,14 +66,14 @@ using LoadWindows =
 
 // Calls body(i) for every i in 0 .. count-1, on any threads, and returns when
 // all are done.
-using ParallelFor = std::function<void(
+using ParallelRunner = std::function<void(
     int64_t count, const std::function<void(int64_t)>& body)>;
 
 // On the calling thread when `parallel_for` is empty.
 absl::StatusOr<ContainmentRanking> RankContainment(
     const QueryWindows& query, const WindowIndex& index,
     const LoadWindows& load, const RankContainmentOptions& options = {},
-    const ParallelFor& parallel_for = {}, const StopToken& stop = {});
+    const ParallelRunner& parallel_for = {}, const StopToken& stop = {});
 
 }  // namespace argmesh
 

@@ -27,8 +27,8 @@ class QueryProbe {
   bool Covers(const Eigen::Vector3d& point,
               const Eigen::Vector3d& direction) const {
     if (!placed_) return false;
-    const Eigen::Vector3d own =
-        inverse_.topLeftCorner<3, 3>() * point + inverse_.topRightCorner<3, 1>();
+    const Eigen::Vector3d own = inverse_.topLeftCorner<3, 3>() * point +
+                                inverse_.topRightCorner<3, 1>();
     const Eigen::Vector3f p =
         (frame_.scale * (own - frame_.origin)).cast<float>();
     const float reach = kNear + surface_.spacing;
@@ -72,11 +72,10 @@ std::vector<bool> CoveredPoints(const QueryWindows& query,
   std::vector<bool> covered;
   covered.reserve(target.points.size());
   for (const PackedPoint& point : target.points) {
-    covered.push_back(
-        probe.Covers(target.frame.origin +
-                         UnpackPosition(point).cast<double>() /
-                             target.frame.scale,
-                     UnpackNormal(point).cast<double>()));
+    covered.push_back(probe.Covers(
+        target.frame.origin +
+            UnpackPosition(point).cast<double>() / target.frame.scale,
+        UnpackNormal(point).cast<double>()));
   }
   return covered;
 }

@@ -23,7 +23,7 @@ class DescriptorTable {
   size_t size() const { return size_; }
 
   struct Entry {
-    int32_t row = -1;    // -1: the table has no more rows
+    int32_t row = -1;   // -1: the table has no more rows
     float squared = 0;  // in units of descriptors
   };
 

@@ -17,9 +17,9 @@ std::vector<float> WindowWeights(const QueryWindows& query) {
   for (size_t l = 0; l < query.levels.size(); ++l) {
     const QueryLevel& level = query.levels[l];
     if (level.windows.empty()) continue;
-    const double weight =
-        std::exp2(kRadiusPower * static_cast<double>(l) / 2) * level.accepted /
-        static_cast<double>(level.windows.size());
+    const double weight = std::exp2(kRadiusPower * static_cast<double>(l) / 2) *
+                          level.accepted /
+                          static_cast<double>(level.windows.size());
     weights.insert(weights.end(), level.windows.size(),
                    static_cast<float>(weight));
   }

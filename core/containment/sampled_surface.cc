@@ -8,8 +8,8 @@
 namespace argmesh {
 namespace {
 
-constexpr float kReach = 3;            // in sd of the Gaussian
-constexpr float kMinCosine = 0.3F;     // of normals that are aligned
+constexpr float kReach = 3;             // in sd of the Gaussian
+constexpr float kMinCosine = 0.3F;      // of normals that are aligned
 constexpr float kPointToPoint = 0.03F;  // weight beside point to plane
 constexpr int kMinAligned = 10;
 constexpr float kMaxScaleRatio = 1.6F;
@@ -47,7 +47,8 @@ bool Update(const Vector7f& step, const Eigen::Vector3f& middle,
         Eigen::AngleAxisf(angle, step.head<3>() / angle).toRotationMatrix() *
         place.rotation;
   }
-  const Eigen::Vector3f center = moved_middle + place.scale * step.segment<3>(3);
+  const Eigen::Vector3f center =
+      moved_middle + place.scale * step.segment<3>(3);
   const float scale =
       place.scale *
       std::exp(std::clamp(step[6], -kMaxLogScaleStep, kMaxLogScaleStep));
@@ -110,8 +111,7 @@ float Cover(const Similarity& place, const LaidSurface& laid, size_t begin,
     const float cosine = (place.rotation * laid.normals[i]).dot(normal);
     if (cosine <= 0) continue;
     const float off = (p - target.tree.points()[at]).dot(normal);
-    const float along =
-        std::sqrt(std::max(0.0F, nearest.squared - off * off));
+    const float along = std::sqrt(std::max(0.0F, nearest.squared - off * off));
     const float beyond = std::max(0.0F, along - target.spacing);
     sum += cosine * std::exp(falloff * (off * off + beyond * beyond));
   }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 
-#include "absl/log/check.h"
 #include "absl/status/status.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
@@ -100,7 +100,7 @@ const WindowCodebook& DefaultWindowCodebook() {
         {argmesh_window_codebook_begin,
          static_cast<size_t>(argmesh_window_codebook_end -
                              argmesh_window_codebook_begin)});
-    CHECK_OK(parsed.status());
+    if (!parsed.ok()) std::abort();  // the program itself is damaged
     return new WindowCodebook(*std::move(parsed));
   }();
   return *kCodebook;

@@ -18,26 +18,8 @@ constexpr std::string_view kWordsName = "window words";
 constexpr std::string_view kWordsMagic = "ARGW";
 constexpr std::string_view kWindowsName = "windows";
 constexpr std::string_view kWindowsMagic = "ARGV";
-constexpr size_t kVersionOffset = 4;
 constexpr size_t kPointBytes = 8;
 constexpr size_t kWindowBytes = kPointBytes + kWindowDims;
-
-// The payload; tells sound bytes of another version from damage.
-absl::StatusOr<std::string_view> Open(std::string_view what,
-                                      std::string_view magic,
-                                      std::string_view bytes) {
-  if (bytes.size() >= kSealBytes && bytes.starts_with(magic)) {
-    ByteReader reader(bytes.substr(kVersionOffset), what);
-    ARGMESH_ASSIGN_OR_RETURN(const uint32_t version, reader.ReadU32());
-    if (version != kWindowsVersion &&
-        OpenSealedBytes(what, magic, version, bytes).ok()) {
-      return absl::FailedPreconditionError(
-          absl::StrFormat("%s: version %d, this program reads version %d",
-                          std::string(what), version, kWindowsVersion));
-    }
-  }
-  return OpenSealedBytes(what, magic, kWindowsVersion, bytes);
-}
 
 void WritePoint(const PackedPoint& point, ByteWriter& writer) {
   for (const int16_t x : point.position) {
@@ -71,10 +53,9 @@ absl::StatusOr<size_t> ReadLimited(ByteReader& reader, std::string_view what,
 }
 
 absl::StatusOr<WindowLevel> ReadLevel(ByteReader& reader) {
-  ARGMESH_ASSIGN_OR_RETURN(
-      const size_t count,
-      ReadLimited(reader, "windows in a level", kWindowBytes,
-                  kMaxLevelWindows));
+  ARGMESH_ASSIGN_OR_RETURN(const size_t count,
+                           ReadLimited(reader, "windows in a level",
+                                       kWindowBytes, kMaxLevelWindows));
   WindowLevel level;
   level.frames.reserve(count);
   for (size_t i = 0; i < count; ++i) {
@@ -100,7 +81,8 @@ absl::StatusOr<WindowFrame> ReadFrame(ByteReader& reader) {
   ARGMESH_ASSIGN_OR_RETURN(frame.scale, reader.ReadF64());
   if (!frame.origin.allFinite() || !std::isfinite(frame.scale) ||
       frame.scale <= 0) {
-    return absl::DataLossError("windows: frame without a finite place and size");
+    return absl::DataLossError(
+        "windows: frame without a finite place and size");
   }
   return frame;
 }
@@ -117,8 +99,9 @@ std::string SerializeWindowWords(const WindowWords& words) {
 }
 
 absl::StatusOr<WindowWords> ParseWindowWords(std::string_view bytes) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::string_view payload,
-                           Open(kWordsName, kWordsMagic, bytes));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const std::string_view payload,
+      OpenSealedBytes(kWordsName, kWordsMagic, kWindowsVersion, bytes));
   ByteReader reader(payload, kWordsName);
   WindowWords words;
   for (std::vector<uint16_t>& level : words.levels) {
@@ -159,8 +142,9 @@ std::string SerializeTargetWindows(const TargetWindows& windows) {
 }
 
 absl::StatusOr<TargetWindows> ParseTargetWindows(std::string_view bytes) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::string_view payload,
-                           Open(kWindowsName, kWindowsMagic, bytes));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const std::string_view payload,
+      OpenSealedBytes(kWindowsName, kWindowsMagic, kWindowsVersion, bytes));
   ByteReader reader(payload, kWindowsName);
   TargetWindows windows;
   ARGMESH_ASSIGN_OR_RETURN(windows.frame, ReadFrame(reader));

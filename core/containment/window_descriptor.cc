@@ -7,8 +7,8 @@
 namespace argmesh {
 namespace {
 
-constexpr float kAxisReach = 0.35F;   // of the radius
-constexpr float kSameSide = 0.2F;     // cosine of normals that make the axis
+constexpr float kAxisReach = 0.35F;    // of the radius
+constexpr float kSameSide = 0.2F;      // cosine of normals that make the axis
 constexpr float kNoDirection = 0.02F;  // of the radius: too close to the centre
 
 struct Sample {
@@ -83,8 +83,7 @@ DescribedWindow DescribeWindow(const SampleLayer& layer,
   SoftGrid<kNormalRows, kNormalColumns> tilt;
   SoftGrid<kNormalRows, kNormalColumns> radial;
   const float inverse = 1 / radius;
-  const float unit =
-      inverse * inverse / static_cast<float>(layer.tree.size());
+  const float unit = inverse * inverse / static_cast<float>(layer.tree.size());
   for (const Sample& sample : samples) {
     const auto place = static_cast<size_t>(sample.place);
     const Eigen::Vector3f offset =

@@ -12,8 +12,8 @@
 namespace argmesh {
 namespace {
 
-constexpr float kSpacing = 0.5F;      // of centres, in radii
-constexpr double kMinSamples = 160;   // in a flat window
+constexpr float kSpacing = 0.5F;     // of centres, in radii
+constexpr double kMinSamples = 160;  // in a flat window
 constexpr size_t kSmallestLayer = 512;
 constexpr size_t kWindowsPerCheck = 64;
 
@@ -36,10 +36,9 @@ std::vector<SampleLayer> MakeLayers(const SurfaceSamples& samples) {
 const SampleLayer& LayerForRadius(const std::vector<SampleLayer>& layers,
                                   float radius) {
   size_t l = 0;
-  while (l + 1 < layers.size() &&
-         static_cast<double>(layers[l].tree.size()) * std::numbers::pi *
-                 radius * radius >=
-             kMinSamples) {
+  while (l + 1 < layers.size() && static_cast<double>(layers[l].tree.size()) *
+                                          std::numbers::pi * radius * radius >=
+                                      kMinSamples) {
     ++l;
   }
   return layers[l];
@@ -118,8 +117,8 @@ absl::StatusOr<RawWindowSet> ExtractRawWindows(const TriangleMesh& repaired,
   TriangleMesh mesh = ToUnitArea(repaired, areas, set.frame);
   const OpenBoundary boundary = FindOpenBoundary(mesh);
   if (plan.orient_open && !boundary.points.empty()) OrientOpenPieces(mesh);
-  set.samples = SampleSurface(mesh, ComputeFaceAreas(mesh), plan.num_samples,
-                              plan.seed);
+  set.samples =
+      SampleSurface(mesh, ComputeFaceAreas(mesh), plan.num_samples, plan.seed);
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   const std::vector<SampleLayer> layers = MakeLayers(set.samples);
   for (int l = 0; l < plan.num_levels; ++l) {

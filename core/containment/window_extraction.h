@@ -22,10 +22,10 @@ struct ExtractionPlan {
   int num_samples = 32768;
   double first_radius = kFirstTargetRadius;
   int num_levels = kNumTargetLevels;
-  int accept_cap = 800;    // centres a level
-  int describe_cap = 800;  // of them described; the first
+  int accept_cap = 800;          // centres a level
+  int describe_cap = 800;        // of them described; the first
   double boundary_margin = 0.8;  // in radii
-  bool orient_open = true;  // turn open pieces outwards
+  bool orient_open = true;       // turn open pieces outwards
   uint64_t seed = 1;
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "absl/log/check.h"
 #include "core/base/status_macros.h"
 #include "core/containment/query_weights.h"
 #include "core/containment/window_codebook.h"
@@ -58,9 +58,8 @@ std::vector<SoftWindow> AssignSoftly(const QueryWindows& query, bool flipped) {
       soft.level = l;
       for (size_t i = 0; i < kSoftWords; ++i) {
         soft.words[i] = static_cast<size_t>(nearest[i].row);
-        soft.similarity[i] = static_cast<float>(
-            std::exp(-nearest[i].squared /
-                     (2 * kWordSigma * kWordSigma * unit * unit)));
+        soft.similarity[i] = static_cast<float>(std::exp(
+            -nearest[i].squared / (2 * kWordSigma * kWordSigma * unit * unit)));
       }
       windows.push_back(soft);
     }
@@ -126,8 +125,7 @@ VoteResult WeighWindows(const QueryWindows& query,
 }  // namespace
 
 WindowIndex::Block& WindowIndex::MutableBlock(int64_t slot) {
-  CHECK_GE(slot, 0);
-  CHECK_LE(slot, kMaxWindowSlot);
+  assert(slot >= 0 && slot <= kMaxWindowSlot);
   const size_t block = static_cast<size_t>(slot) / kSlots;
   if (block >= blocks_.size()) blocks_.resize(block + 1);
   std::shared_ptr<Block>& shared = blocks_[block];
@@ -161,7 +159,7 @@ void WindowIndex::Set(int64_t slot, const WindowWords& words) {
   block.used[at / 64] |= bit;
   for (size_t l = 0; l < words.levels.size(); ++l) {
     for (const uint16_t word : words.levels[l]) {
-      CHECK_LT(word, kNumWindowWords);
+      assert(word < kNumWindowWords);
       block.bits[l * kNumWindowWords + word][at / 64] |= bit;
     }
   }

@@ -13,11 +13,11 @@ namespace {
 constexpr size_t kCandidates = 3;
 constexpr float kSigma = 0.5F;
 constexpr float kMinLikeness = 0.02F;
-constexpr float kMinBaseline = 0.2F;    // of the query's size
+constexpr float kMinBaseline = 0.2F;     // of the query's size
 constexpr float kMaxScaleRatio = 1.43F;  // to the shift's scale
-constexpr float kMaxTiltError = 0.35F;  // of cosines to the baseline
-constexpr float kMaxBendError = 0.4F;   // of the cosine of both normals
-constexpr float kMinBothAcross = 0.4F;  // lengths that a frame can rest on
+constexpr float kMaxTiltError = 0.35F;   // of cosines to the baseline
+constexpr float kMaxBendError = 0.4F;    // of the cosine of both normals
+constexpr float kMinBothAcross = 0.4F;   // lengths that a frame can rest on
 constexpr float kMinOneAcross = 0.3F;
 
 // Two oriented points.
@@ -60,7 +60,8 @@ std::optional<Similarity> Fit(const Pair& from, const Pair& to,
   }
   Eigen::Vector3f from_across = Across(from.normal_a + from.normal_b, d);
   Eigen::Vector3f to_across = Across(to.normal_a + to.normal_b, e);
-  if (from_across.norm() < kMinBothAcross || to_across.norm() < kMinBothAcross) {
+  if (from_across.norm() < kMinBothAcross ||
+      to_across.norm() < kMinBothAcross) {
     from_across = Across(from.normal_a, d);
     to_across = Across(to.normal_a, e);
     if (from_across.norm() < kMinOneAcross ||
@@ -71,8 +72,8 @@ std::optional<Similarity> Fit(const Pair& from, const Pair& to,
   Similarity place;
   place.rotation = Frame(e, to_across) * Frame(d, from_across).transpose();
   place.scale = scale;
-  place.shift = (to.a + to.b) / 2 -
-                scale * (place.rotation * ((from.a + from.b) / 2));
+  place.shift =
+      (to.a + to.b) / 2 - scale * (place.rotation * ((from.a + from.b) / 2));
   return place;
 }
 
@@ -97,8 +98,7 @@ WindowPairs::WindowPairs(const QueryWindows& query, bool flipped,
         const float likeness = std::exp(falloff * entry.squared);
         if (likeness < kMinLikeness) continue;
         const auto row = static_cast<size_t>(entry.row);
-        matches_.push_back(
-            {&window, level.positions[row], level.normals[row]});
+        matches_.push_back({&window, level.positions[row], level.normals[row]});
         total += likeness * likeness;
         cumulative_.push_back(total);
       }
@@ -108,7 +108,8 @@ WindowPairs::WindowPairs(const QueryWindows& query, bool flipped,
 
 const WindowMatch& WindowPairs::DrawMatch(Random& random) const {
   const double at = random.Uniform() * cumulative_.back();
-  const auto drawn = std::lower_bound(cumulative_.begin(), cumulative_.end(), at);
+  const auto drawn =
+      std::lower_bound(cumulative_.begin(), cumulative_.end(), at);
   const auto index = std::min<size_t>(
       static_cast<size_t>(drawn - cumulative_.begin()), matches_.size() - 1);
   return matches_[index];
@@ -119,8 +120,8 @@ std::optional<Similarity> WindowPairs::Draw(Random& random) const {
   const WindowMatch& b = DrawMatch(random);
   if (a.query == b.query) return std::nullopt;
   const float side = flipped_ ? -1.0F : 1.0F;
-  const Pair from{a.query->position, b.query->position,
-                  side * a.query->normal, side * b.query->normal};
+  const Pair from{a.query->position, b.query->position, side * a.query->normal,
+                  side * b.query->normal};
   const Pair to{a.target_position, b.target_position, a.target_normal,
                 b.target_normal};
   return Fit(from, to, expected_scale_);

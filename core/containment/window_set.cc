@@ -21,9 +21,8 @@ PackedPoint PackPoint(const Eigen::Vector3f& position,
                       const Eigen::Vector3f& normal) {
   PackedPoint packed;
   for (int k = 0; k < 3; ++k) {
-    packed.position[static_cast<size_t>(k)] =
-        static_cast<int16_t>(std::lround(
-            std::clamp(position[k] / kPositionStep, -32767.0F, 32767.0F)));
+    packed.position[static_cast<size_t>(k)] = static_cast<int16_t>(std::lround(
+        std::clamp(position[k] / kPositionStep, -32767.0F, 32767.0F)));
   }
   // The octahedron |x| + |y| + |z| = 1 seen from above, its lower half folded
   // outwards over the corners of the square.

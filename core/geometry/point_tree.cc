@@ -42,13 +42,12 @@ void PointTree::Build(std::span<const Eigen::Vector3f> points, int32_t begin,
   Eigen::Index axis = 0;
   (node.high - node.low).maxCoeff(&axis);
   const int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(
-      numbers_.begin() + begin, numbers_.begin() + middle,
-      numbers_.begin() + end, [&](int32_t a, int32_t b) {
-        const float x = point(a)[axis];
-        const float y = point(b)[axis];
-        return x != y ? x < y : a < b;
-      });
+  std::nth_element(numbers_.begin() + begin, numbers_.begin() + middle,
+                   numbers_.begin() + end, [&](int32_t a, int32_t b) {
+                     const float x = point(a)[axis];
+                     const float y = point(b)[axis];
+                     return x != y ? x < y : a < b;
+                   });
   Build(points, begin, middle);
   nodes_[self].right = static_cast<int32_t>(nodes_.size());
   Build(points, middle, end);
@@ -72,7 +71,8 @@ PointTree::Nearest PointTree::FindNearest(const Eigen::Vector3f& query,
     if (node.right > 0) {
       Entry near{entry.node + 1, 0};
       Entry far{node.right, 0};
-      near.squared = SquaredToBox(nodes_[static_cast<size_t>(near.node)], query);
+      near.squared =
+          SquaredToBox(nodes_[static_cast<size_t>(near.node)], query);
       far.squared = SquaredToBox(nodes_[static_cast<size_t>(far.node)], query);
       if (far.squared < near.squared) std::swap(near, far);
       stack[depth++] = far;

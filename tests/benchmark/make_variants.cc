@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "core/synthesis/mesh_decimate.h"
 #include "core/synthesis/mesh_noise.h"
 #include "core/synthesis/mesh_similarity.h"
+#include "tests/benchmark/cut_pieces.h"
 #include "tests/benchmark/hand_made_parts.h"
 #include "tests/benchmark/labelled_collection.h"
 
@@ -26,11 +26,17 @@ namespace {
 
 struct Options {
   std::string in, out;
+  std::string only;           // paths that begin so; empty: all
+  std::string source_prefix;  // sources: the paths of the same class below
+  uint64_t seed = 1;
   int every = 1;
   int resample = 0;
   double noise = 0;
   double decimate = 0;
   int half_axis = -1;
+  double piece = 0;     // share of the area
+  int piece_axis = -1;  // a random direction when negative
+  double disc = 0;      // radius in square roots of the area
   bool similarity = false;
   bool parts = false;
   double min_part_area = 0.02;  // share of the shape
@@ -43,9 +49,26 @@ struct Variant {
   TriangleMesh mesh;
 };
 
+constexpr uint64_t kSeedsPerItem = 1000;
+constexpr int kMinFaces = 20;  // of a piece that is worth looking for
+
+TriangleMesh Cut(TriangleMesh mesh, const Options& options, uint64_t seed) {
+  if (options.half_axis >= 0) mesh = CutHalf(mesh, options.half_axis);
+  if (options.piece > 0) {
+    mesh = CutByShare(mesh,
+                      options.piece_axis < 0
+                          ? RandomDirection(seed)
+                          : Eigen::Vector3d::Unit(options.piece_axis),
+                      options.piece);
+  }
+  if (options.disc > 0) mesh = FlattestDisc(mesh, options.disc, seed);
+  return mesh;
+}
+
 absl::StatusOr<TriangleMesh> Change(TriangleMesh mesh, const Options& options,
                                     uint64_t seed) {
-  if (options.resample > 0) {
+  mesh = Cut(std::move(mesh), options, seed);
+  if (options.resample > 0 && mesh.num_faces() > 0) {
     ARGMESH_ASSIGN_OR_RETURN(const RepairedMesh repaired, RepairMesh(mesh));
     ResampleOptions resample;
     resample.vertex_budget = options.resample;
@@ -58,7 +81,6 @@ absl::StatusOr<TriangleMesh> Change(TriangleMesh mesh, const Options& options,
     mesh = DecimateMesh(
         mesh, static_cast<int>(options.decimate * mesh.num_vertices()));
   }
-  if (options.half_axis >= 0) mesh = CutHalf(mesh, options.half_axis);
   if (options.similarity) mesh = RandomSimilarity(mesh, seed);
   return mesh;
 }
@@ -101,7 +123,8 @@ std::vector<Variant> CutParts(const LabelledMesh& item,
 }
 
 absl::StatusOr<std::vector<Variant>> MakeVariants(const LabelledMesh& item,
-                                                  const Options& options) {
+                                                  const Options& options,
+                                                  uint64_t seed) {
   const std::filesystem::path path =
       std::filesystem::path(options.in) / item.path;
   ARGMESH_ASSIGN_OR_RETURN(TriangleMesh mesh, ReadMesh(path));
@@ -113,12 +136,28 @@ absl::StatusOr<std::vector<Variant>> MakeVariants(const LabelledMesh& item,
   } else {
     variants.push_back({item.path, item.label, item.path, std::move(mesh)});
   }
-  uint64_t seed = std::hash<std::string>{}(item.path);
   for (Variant& variant : variants) {
     ARGMESH_ASSIGN_OR_RETURN(variant.mesh,
                              Change(std::move(variant.mesh), options, seed++));
   }
+  std::erase_if(variants, [](const Variant& variant) {
+    return variant.mesh.num_faces() < kMinFaces;
+  });
   return variants;
+}
+
+// The item of the same class below options.source_prefix.
+std::string SourceOf(const Variant& variant,
+                     const std::vector<LabelledMesh>& items,
+                     const Options& options) {
+  if (options.source_prefix.empty()) return variant.source;
+  for (const LabelledMesh& item : items) {
+    if (item.label == variant.label &&
+        item.path.starts_with(options.source_prefix)) {
+      return item.path;
+    }
+  }
+  return "";
 }
 
 absl::Status Write(const Variant& variant, const Options& options,
@@ -144,9 +183,12 @@ absl::Status Run(const Options& options) {
   std::ofstream queries(out / "queries.tsv");
   for (size_t i = 0; i < items.size();
        i += static_cast<size_t>(options.every)) {
-    ARGMESH_ASSIGN_OR_RETURN(const std::vector<Variant> variants,
-                             MakeVariants(items[i], options));
-    for (const Variant& variant : variants) {
+    if (!items[i].path.starts_with(options.only)) continue;
+    ARGMESH_ASSIGN_OR_RETURN(
+        std::vector<Variant> variants,
+        MakeVariants(items[i], options, kSeedsPerItem * (options.seed + i)));
+    for (Variant& variant : variants) {
+      variant.source = SourceOf(variant, items, options);
       ARGMESH_RETURN_IF_ERROR(Write(variant, options, labels, queries));
     }
   }
@@ -166,6 +208,16 @@ int main(int argc, char** argv) {
   app.add_option("--noise", options.noise, "Share of the box diagonal");
   app.add_option("--decimate", options.decimate, "Share of vertices kept");
   app.add_option("--half", options.half_axis, "Cut in half on axis 0, 1, 2");
+  app.add_option("--piece", options.piece,
+                 "Cut off by a plane: share of the area that is kept");
+  app.add_option("--piece-axis", options.piece_axis,
+                 "Axis of that plane's normal instead of a random one");
+  app.add_option("--disc", options.disc,
+                 "A featureless patch: radius in square roots of the area");
+  app.add_option("--only", options.only, "Paths that begin so");
+  app.add_option("--source-prefix", options.source_prefix,
+                 "Name as source the path of the same class that begins so");
+  app.add_option("--seed", options.seed);
   app.add_flag("--similarity", options.similarity,
                "Random rotation, scale, translation and numbering");
   app.add_flag("--parts", options.parts, "Hand-made parts, one file each");
