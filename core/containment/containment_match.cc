@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/base/random.h"
@@ -139,16 +141,6 @@ void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
   }
 }
 
-std::array<int, kShiftsTried> BestShifts(const ShapeVotes& votes) {
-  std::array<int, kNumShifts> order{};
-  for (int i = 0; i < kNumShifts; ++i) order[static_cast<size_t>(i)] = i;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return votes.by_shift[static_cast<size_t>(a)] >
-           votes.by_shift[static_cast<size_t>(b)];
-  });
-  return {order[0], order[1]};
-}
-
 // From the frames of the windows to the meshes' own units.
 Eigen::Matrix4d OwnUnits(const Similarity& place, const WindowFrame& query,
                          const WindowFrame& target) {
@@ -180,7 +172,8 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
   const Effort& effort = options.thorough ? kThorough : kQuick;
   Random random(options.seed);
   Found found;
-  for (const int shift : BestShifts(votes)) {
+  const std::array<int, kNumShifts> shifts = ShiftsByVotes(votes);
+  for (const int shift : std::span(shifts).first<kShiftsTried>()) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     const WindowPairs pairs(query, options.flipped, target, shift);
     if (pairs.empty()) continue;

@@ -124,11 +124,10 @@ class Chain {
  private:
   absl::Status VoteOn(Candidate& candidate) const {
     ARGMESH_RETURN_IF_ERROR(stop_.Check());
-    const int64_t slot = candidate.votes.slot;
-    ARGMESH_ASSIGN_OR_RETURN(candidate.windows, load_(slot));
+    ARGMESH_ASSIGN_OR_RETURN(candidate.windows, load_(candidate.votes.slot));
     if (candidate.windows == nullptr) return absl::OkStatus();
-    candidate.votes = VoteExactly(query_, votes_, flipped_, *candidate.windows);
-    candidate.votes.slot = slot;
+    candidate.votes = VoteExactly(query_, votes_, candidate.votes, flipped_,
+                                  *candidate.windows);
     candidate.match.votes = candidate.votes.score;
     candidate.match.score = candidate.votes.score;
     candidate.match.flipped = flipped_;

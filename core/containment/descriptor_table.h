@@ -5,6 +5,7 @@
 #ifndef ARGMESH_CORE_CONTAINMENT_DESCRIPTOR_TABLE_H_
 #define ARGMESH_CORE_CONTAINMENT_DESCRIPTOR_TABLE_H_
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +38,7 @@ class DescriptorTable {
 
  private:
   static constexpr size_t kBlock = 16;
-  using Block = std::array<float, kBlock>;
+  using Block = Eigen::Array<float, static_cast<int>(kBlock), 1>;
 
   // Squared distances to the rows of a block; far for padding.
   void Distances(const std::array<float, kWindowDims>& query, float norm,
@@ -70,13 +71,18 @@ std::array<DescriptorTable::Entry, kCount> DescriptorTable::FindNearest(
   for (size_t b = 0; b * kBlock < size_; ++b) {
     Distances(floats, norm, b, squared);
     for (size_t j = 0; j < kBlock && b * kBlock + j < size_; ++j) {
-      if (found == kCount && squared[j] >= best[kCount - 1].squared) continue;
+      if (found == kCount &&
+          squared[static_cast<Eigen::Index>(j)] >= best[kCount - 1].squared)
+        continue;
       if (found < kCount) ++found;
       size_t at = found - 1;
-      for (; at > 0 && best[at - 1].squared > squared[j]; --at) {
+      for (; at > 0 &&
+             best[at - 1].squared > squared[static_cast<Eigen::Index>(j)];
+           --at) {
         best[at] = best[at - 1];
       }
-      best[at] = {static_cast<int32_t>(b * kBlock + j), squared[j]};
+      best[at] = {static_cast<int32_t>(b * kBlock + j),
+                  squared[static_cast<Eigen::Index>(j)]};
     }
   }
   return best;

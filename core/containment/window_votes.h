@@ -32,9 +32,14 @@ struct VoteResult {
 };
 
 // S against one shape from the windows themselves, under the weights of the
-// index's votes. Cost about 1 ms. Thread-safe.
+// index's votes and at its best three shifts for the shape, `indexed`.
+// Cost about 1 ms. Thread-safe.
 ShapeVotes VoteExactly(const QueryWindows& query, const VoteResult& votes,
-                       bool flipped, const TargetWindows& target);
+                       const ShapeVotes& indexed, bool flipped,
+                       const TargetWindows& target);
+
+// Shift numbers by votes, descending; ties to the smaller shift.
+std::array<int, kNumShifts> ShiftsByVotes(const ShapeVotes& votes);
 
 }  // namespace argmesh
 

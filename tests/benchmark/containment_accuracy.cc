@@ -295,6 +295,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads);
   app.add_flag("--rows", options.rows, "A line for each query");
   CLI11_PARSE(app, argc, argv);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const absl::Status status = argmesh::Run(options);
   if (!status.ok()) std::printf("%s\n", status.ToString().c_str());
   return status.ok() ? 0 : 1;
