@@ -1,0 +1,230 @@
+#include "core/containment/containment_ranking.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "core/containment/covered_surface.h"
+#include "core/containment/query_windows.h"
+#include "core/geometry/area.h"
+#include "core/synthesis/mesh_noise.h"
+#include "tests/support/status_matchers.h"
+#include "tests/support/test_meshes.h"
+#include "tests/unit/core/containment/small_gallery.h"
+
+namespace argmesh {
+namespace {
+
+using ::testing::_;
+using ::testing::HasSubstr;
+
+QueryWindows Query(const TriangleMesh& mesh) {
+  return *ExtractQueryWindows(mesh);
+}
+
+const TriangleMesh& MeshOf(const std::string& class_name) {
+  return Gallery().meshes[static_cast<size_t>(Gallery().SlotOf(class_name))];
+}
+
+absl::StatusOr<ContainmentRanking> Rank(
+    const QueryWindows& query, const RankContainmentOptions& options = {},
+    const ParallelRunner& runner = {}, const StopToken& stop = {}) {
+  return RankContainment(query, Gallery().index, Gallery().Loader(), options,
+                         runner, stop);
+}
+
+// The largest distance between where both transforms take the mesh, in
+// diagonals of where the first takes it.
+double Apart(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
+             const TriangleMesh& mesh) {
+  const VertexMatrix x =
+      (mesh.V * a.topLeftCorner<3, 3>().transpose()).rowwise() +
+      a.topRightCorner<3, 1>().transpose();
+  const VertexMatrix y =
+      (mesh.V * b.topLeftCorner<3, 3>().transpose()).rowwise() +
+      b.topRightCorner<3, 1>().transpose();
+  const double diagonal =
+      (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+  return (x - y).rowwise().norm().maxCoeff() / diagonal;
+}
+
+TEST(RankContainment, VerifiesAMovedPieceInItsSource) {
+  for (const char* source : {"chair", "human", "teapot"}) {
+    SCOPED_TRACE(source);
+    const MovedPiece piece = CutAndMove(MeshOf(source), 2, 11);
+    const QueryWindows query = Query(piece.mesh);
+    ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking, Rank(query));
+    ASSERT_FALSE(ranking.matches.empty());
+    const RankedContainment& first = ranking.matches[0];
+    EXPECT_EQ(first.slot, Gallery().SlotOf(source));
+    EXPECT_TRUE(first.match.verified);
+    EXPECT_FALSE(first.match.flipped);
+    EXPECT_FALSE(first.tied);
+    EXPECT_FALSE(ranking.generic);
+    EXPECT_LT(Apart(first.match.transform, piece.transform, piece.mesh), 0.02);
+    EXPECT_GT(first.match.query_coverage, 0.95);
+    const double share =
+        ComputeFaceAreas(CutAndMove(MeshOf(source), 2, 11).mesh).sum() *
+        std::pow(piece.transform.topLeftCorner<3, 3>().determinant(), 2.0 / 3) /
+        ComputeFaceAreas(MeshOf(source)).sum();
+    EXPECT_NEAR(first.match.target_coverage, share, 0.03);
+    for (size_t i = 1; i < ranking.matches.size(); ++i) {
+      EXPECT_FALSE(ranking.matches[i].match.verified) << i;
+    }
+  }
+}
+
+TEST(RankContainment, FindsANoisyPiece) {
+  const MovedPiece piece = CutAndMove(MeshOf("airplane"), 0, 4);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking,
+                       Rank(Query(AddNoise(piece.mesh, 0.002, 9))));
+  EXPECT_EQ(ranking.matches[0].slot, Gallery().SlotOf("airplane"));
+  EXPECT_LT(
+      Apart(ranking.matches[0].match.transform, piece.transform, piece.mesh),
+      0.03);
+}
+
+TEST(RankContainment, FindsAPieceTurnedInsideOut) {
+  const MovedPiece piece = CutAndMove(MeshOf("human"), 2, 5);
+  const QueryWindows query = Query(TurnedInsideOut(piece.mesh));
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking, Rank(query));
+  EXPECT_EQ(ranking.matches[0].slot, Gallery().SlotOf("human"));
+  EXPECT_TRUE(ranking.matches[0].match.verified);
+  EXPECT_TRUE(ranking.matches[0].match.flipped);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking given,
+                       Rank(query, {.try_flipped = false}));
+  EXPECT_FALSE(given.matches[0].match.verified);
+}
+
+TEST(RankContainment, SaysOfAFeaturelessPatchThatItIsGeneric) {
+  // Bent a little like most surfaces are somewhere.
+  TriangleMesh patch = MakeSheet(24);
+  for (int v = 0; v < patch.num_vertices(); ++v) {
+    const Eigen::Vector2d d =
+        patch.V.row(v).head<2>().transpose() - Eigen::Vector2d(0.5, 0.5);
+    patch.V(v, 2) = -0.15 * d.squaredNorm();
+  }
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking, Rank(Query(patch)));
+  EXPECT_TRUE(ranking.generic);
+  EXPECT_LT(ranking.distinctiveness, 0.4);
+}
+
+TEST(RankContainment, TiesShapesThatAreTheSame) {
+  WindowIndex index = Gallery().index;
+  const int64_t twin = 900;
+  index.Set(
+      twin,
+      AssignWindowWords(
+          *Gallery().windows[static_cast<size_t>(Gallery().SlotOf("teapot"))]));
+  const LoadWindows load = [](int64_t slot) {
+    return Gallery().Loader()(slot == 900 ? Gallery().SlotOf("teapot") : slot);
+  };
+  const QueryWindows query = Query(CutAndMove(MeshOf("teapot"), 0, 2).mesh);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking,
+                       RankContainment(query, index, load));
+  ASSERT_GE(ranking.matches.size(), 3u);
+  EXPECT_EQ(ranking.matches[0].slot, Gallery().SlotOf("teapot"));
+  EXPECT_EQ(ranking.matches[1].slot, twin);
+  EXPECT_TRUE(ranking.matches[0].tied);
+  EXPECT_TRUE(ranking.matches[1].tied);
+  EXPECT_FALSE(ranking.matches[2].tied);
+}
+
+TEST(RankContainment, GivesTheSameBitsOnAnyThreads) {
+  const QueryWindows query = Query(CutAndMove(MeshOf("fish"), 1, 3).mesh);
+  const ParallelRunner backwards_on_three =
+      [](int64_t count, const std::function<void(int64_t)>& body) {
+        std::vector<std::jthread> threads;
+        for (int64_t t = 0; t < 3; ++t) {
+          threads.emplace_back([=] {
+            for (int64_t i = count - 1 - t; i >= 0; i -= 3) body(i);
+          });
+        }
+      };
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking a, Rank(query));
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking b,
+                       Rank(query, {}, backwards_on_three));
+  ASSERT_EQ(a.matches.size(), b.matches.size());
+  for (size_t i = 0; i < a.matches.size(); ++i) {
+    EXPECT_EQ(a.matches[i].slot, b.matches[i].slot);
+    EXPECT_EQ(a.matches[i].match.score, b.matches[i].match.score);
+    EXPECT_EQ(a.matches[i].match.transform, b.matches[i].match.transform);
+  }
+}
+
+TEST(RankContainment, LeavesOutShapesThatWent) {
+  const QueryWindows query = Query(CutAndMove(MeshOf("mug"), 2, 3).mesh);
+  const LoadWindows load =
+      [](int64_t slot) -> absl::StatusOr<std::shared_ptr<const TargetWindows>> {
+    if (slot == Gallery().SlotOf("mug")) return nullptr;
+    return Gallery().Loader()(slot);
+  };
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking,
+                       RankContainment(query, Gallery().index, load));
+  EXPECT_EQ(ranking.loaded, ranking.considered - 1);
+  for (const RankedContainment& ranked : ranking.matches) {
+    EXPECT_NE(ranked.slot, Gallery().SlotOf("mug"));
+  }
+}
+
+TEST(RankContainment, ReportsWhatCannotBeLoaded) {
+  const LoadWindows load =
+      [](int64_t) -> absl::StatusOr<std::shared_ptr<const TargetWindows>> {
+    return absl::DataLossError("slot is damaged");
+  };
+  EXPECT_THAT(
+      RankContainment(Query(MeshOf("mug")), Gallery().index, load),
+      StatusIs(absl::StatusCode::kDataLoss, HasSubstr("slot is damaged")));
+}
+
+TEST(RankContainment, RefusesLimitsBelowOne) {
+  EXPECT_THAT(
+      Rank(QueryWindows(), {.limit = 0}),
+      StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("limit is 0")));
+}
+
+TEST(RankContainment, StopsWhenToldTo) {
+  EXPECT_THAT(
+      Rank(Query(MeshOf("mug")), {}, {}, StopToken({}, absl::InfinitePast())),
+      StatusIs(absl::StatusCode::kDeadlineExceeded, _));
+}
+
+TEST(CoveredSurface, IsThePieceThatWasCut) {
+  const TriangleMesh& mesh = MeshOf("teapot");
+  const MovedPiece piece = CutAndMove(mesh, 0, 8);
+  const QueryWindows query = Query(piece.mesh);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking, Rank(query));
+  const ContainmentMatch& match = ranking.matches[0].match;
+  ASSERT_TRUE(match.verified);
+  const std::vector<bool> faces = CoveredFaces(query, match, mesh);
+  const double middle =
+      (mesh.V.col(0).minCoeff() + mesh.V.col(0).maxCoeff()) / 2;
+  const double size = std::sqrt(ComputeFaceAreas(mesh).sum());
+  int wrong = 0;
+  for (int f = 0; f < mesh.num_faces(); ++f) {
+    const double x = (mesh.V(mesh.F(f, 0), 0) + mesh.V(mesh.F(f, 1), 0) +
+                      mesh.V(mesh.F(f, 2), 0)) /
+                     3;
+    if (std::abs(x - middle) < 0.06 * size) continue;
+    wrong += faces[static_cast<size_t>(f)] != (x > middle);
+  }
+  EXPECT_LT(wrong, 0.02 * mesh.num_faces());
+  const TargetWindows& target =
+      *Gallery().windows[static_cast<size_t>(ranking.matches[0].slot)];
+  const std::vector<bool> points = CoveredPoints(query, match, target);
+  const double share =
+      static_cast<double>(std::count(points.begin(), points.end(), true)) /
+      static_cast<double>(points.size());
+  EXPECT_NEAR(share, match.target_coverage, 0.08);
+}
+
+TEST(CoveredSurface, OfNoTransformIsNothing) {
+  const TriangleMesh& mesh = MeshOf("mug");
+  const std::vector<bool> faces = CoveredFaces(Query(mesh), {}, mesh);
+  EXPECT_EQ(std::count(faces.begin(), faces.end(), true), 0);
+}
+
+}  // namespace
+}  // namespace argmesh
