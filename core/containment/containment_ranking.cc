@@ -16,7 +16,10 @@
 namespace argmesh {
 namespace {
 
-constexpr double kDistinctive = 0.4;  // windows say enough
+// Windows below the first say too little whatever is found, above the second
+// enough.
+constexpr double kIndistinct = 0.28;
+constexpr double kDistinctive = 0.4;
 constexpr double kCovered = 0.9;      // F that counts as lying on a shape
 constexpr double kCommonShare = 0.1;  // of verified shapes: too many
 constexpr double kTieMargin = 0.1;    // of scores
@@ -201,8 +204,9 @@ class Chain {
   }
 
   void Report(ContainmentRanking& ranking) {
-    ranking.generic = ranking.distinctiveness < kDistinctive &&
-                      ranking.common_share > kCommonShare;
+    ranking.generic = ranking.distinctiveness < kIndistinct ||
+                      (ranking.distinctiveness < kDistinctive &&
+                       ranking.common_share > kCommonShare);
     KeepBest(candidates_, options_.limit,
              [](const Candidate& c) { return c.match.score; });
     for (const Candidate& candidate : candidates_) {

@@ -45,9 +45,10 @@ struct RankedContainment {
 
 struct ContainmentRanking {
   std::vector<RankedContainment> matches;  // by score, descending, then slot
-  // The query fits too much to say anything: its windows are common, or more
-  // than a tenth of the verified shapes cover it. Then nothing counts as found
-  // whatever `verified` says.
+  // The query fits too much to say anything: its windows are common
+  // (distinctiveness < 0.28), or fairly common (< 0.4) while more than a tenth
+  // of the shapes verified hold it. Then nothing counts as found whatever
+  // `verified` says.
   bool generic = false;
   double distinctiveness = 0;  // 0 .. 1
   double common_share = 0;     // verified shapes with F > 0.9, 0 .. 1

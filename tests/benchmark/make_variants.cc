@@ -2,6 +2,7 @@
 // queries.tsv (path, class, source) for `argmesh evaluate --queries`.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -32,6 +33,7 @@ struct Options {
   int every = 1;
   int resample = 0;
   double noise = 0;
+  double size_noise = 0;
   double decimate = 0;
   int half_axis = -1;
   double piece = 0;     // share of the area
@@ -77,6 +79,12 @@ absl::StatusOr<TriangleMesh> Change(TriangleMesh mesh, const Options& options,
     mesh = std::move(resampled.mesh);
   }
   if (options.noise > 0) mesh = AddNoise(mesh, options.noise, seed);
+  if (options.size_noise > 0 && mesh.num_faces() > 0) {
+    const double diagonal =
+        (mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm();
+    const double size = std::sqrt(ComputeFaceAreas(mesh).sum());
+    mesh = AddNoise(mesh, options.size_noise * size / diagonal, seed);
+  }
   if (options.decimate > 0) {
     mesh = DecimateMesh(
         mesh, static_cast<int>(options.decimate * mesh.num_vertices()));
@@ -206,6 +214,8 @@ int main(int argc, char** argv) {
   app.add_option("--every", options.every, "Every n-th mesh only");
   app.add_option("--resample", options.resample, "Vertices of every copy");
   app.add_option("--noise", options.noise, "Share of the box diagonal");
+  app.add_option("--size-noise", options.size_noise,
+                 "Share of the square root of the area");
   app.add_option("--decimate", options.decimate, "Share of vertices kept");
   app.add_option("--half", options.half_axis, "Cut in half on axis 0, 1, 2");
   app.add_option("--piece", options.piece,

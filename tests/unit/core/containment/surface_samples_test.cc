@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/containment/open_orientation.h"
@@ -69,7 +70,7 @@ TEST(OpenBoundary, IsNotWhereTwoSheetsMeet) {
 TEST(OpenBoundary, LeavesPinholesOutOfWideWindows) {
   TriangleMesh sheet = MakeSheet(20);
   // One face of the middle goes.
-  const int hole = 20 * 20;
+  const int hole = 20 * 20 + 20;
   FaceMatrix faces(sheet.F.rows() - 1, 3);
   faces << sheet.F.topRows(hole), sheet.F.bottomRows(sheet.F.rows() - hole - 1);
   sheet.F = faces;
