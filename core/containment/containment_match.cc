@@ -31,16 +31,17 @@ constexpr size_t kGlance = 16;
 constexpr size_t kLook = 64;
 constexpr size_t kCoarseSamples = 256;
 constexpr size_t kFineSamples = 600;
-constexpr float kWorthFine = 0.3F;  // C that is refined further
-constexpr float kSettled = 0.97F;   // F at which no further shift is tried
-constexpr float kPlainHit = 0.92F;  // a look at which drawing stops
+constexpr float kWorthRefining = 0.25F;  // a look that is refined at all
+constexpr float kSettled = 0.97F;        // F at which no further shift is tried
+constexpr float kPlainHit = 0.92F;       // a look at which drawing stops
 
 struct Effort {
   int places;  // looked at for each shift
   size_t refined;
+  float worth_fine;  // C that is refined further
 };
-constexpr Effort kQuick{80, 2};
-constexpr Effort kThorough{400, 5};
+constexpr Effort kQuick{80, 2, 0.8F};
+constexpr Effort kThorough{400, 5, 0.5F};
 
 struct Placed {
   float cover = 0;
@@ -78,6 +79,8 @@ std::vector<Placed> LookAtPlaces(const WindowPairs& pairs,
   return placed;
 }
 
+constexpr float kStill = 0.001F;  // of the query's size: a step that ends it
+
 struct Refinement {
   int steps;
   size_t samples;
@@ -95,10 +98,9 @@ void Refine(const Refinement& refinement, const LaidSurface& laid,
             Similarity& place) {
   float tau = refinement.tau;
   for (int i = 0; i < refinement.steps; ++i) {
-    if (!AlignStep(laid, refinement.samples, target, tau, expected_scale,
-                   place)) {
-      return;
-    }
+    const float moved =
+        AlignStep(laid, refinement.samples, target, tau, expected_scale, place);
+    if (moved < kStill && tau <= refinement.least_tau) return;
     tau = std::max(refinement.least_tau, refinement.shrink * tau);
   }
 }
@@ -117,6 +119,9 @@ void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
   std::vector<Placed> placed =
       LookAtPlaces(pairs, laid, target, effort.places, random);
   placed.resize(std::min(placed.size(), effort.refined));
+  std::erase_if(placed, [](const Placed& candidate) {
+    return candidate.cover < kWorthRefining;
+  });
   Placed best;
   for (Placed& candidate : placed) {
     Refine(kCoarseRefinement, laid, target, scale, candidate.place);
@@ -129,7 +134,7 @@ void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
     found.coarse = best.cover;
     if (found.fine <= 0) found.place = best.place;
   }
-  if (best.cover < kWorthFine) return;
+  if (best.cover < effort.worth_fine) return;
   Similarity refined = best.place;
   Refine(kFineRefinement, laid, target, scale, refined);
   for (const Similarity& place : {refined, best.place}) {

@@ -58,6 +58,7 @@ absl::Status CheckOptions(const RankContainmentOptions& options) {
 struct Candidate {
   ShapeVotes votes;
   std::shared_ptr<const TargetWindows> windows;
+  std::shared_ptr<const PreparedTarget> prepared;
   ContainmentMatch match;
 };
 
@@ -143,17 +144,19 @@ class Chain {
     verify.thorough = thorough;
     verify.flipped = flipped_;
     verify.seed = options_.seed + (thorough ? 1 : 0);
-    const PreparedTarget target(*candidate.windows);
-    ARGMESH_ASSIGN_OR_RETURN(
-        const ContainmentMatch match,
-        VerifyContainment(query_, target, candidate.votes, verify, stop_));
+    if (candidate.prepared == nullptr) {
+      candidate.prepared = std::make_shared<PreparedTarget>(*candidate.windows);
+    }
+    ARGMESH_ASSIGN_OR_RETURN(const ContainmentMatch match,
+                             VerifyContainment(query_, *candidate.prepared,
+                                               candidate.votes, verify, stop_));
     if (match.score >= candidate.match.score) candidate.match = match;
     return absl::OkStatus();
   }
 
   absl::Status VoteOnWindows() {
     for (const ShapeVotes& votes : votes_.shapes) {
-      candidates_.push_back({votes, nullptr, {}});
+      candidates_.push_back({votes, nullptr, nullptr, {}});
     }
     ARGMESH_RETURN_IF_ERROR(
         ForEach(parallel_for_, candidates_,

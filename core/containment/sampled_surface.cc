@@ -37,11 +37,11 @@ struct NormalEquations {
   }
 };
 
-bool Update(const Vector7f& step, const Eigen::Vector3f& middle,
-            const Eigen::Vector3f& moved_middle, float expected_scale,
-            Similarity& place) {
+float Update(const Vector7f& step, const Eigen::Vector3f& middle,
+             const Eigen::Vector3f& moved_middle, float expected_scale,
+             Similarity& place) {
   const float angle = step.head<3>().norm();
-  if (!(angle < kMaxAngle) || !step.allFinite()) return false;
+  if (!(angle < kMaxAngle) || !step.allFinite()) return 0;
   if (angle > 1e-9F) {
     place.rotation =
         Eigen::AngleAxisf(angle, step.head<3>() / angle).toRotationMatrix() *
@@ -57,7 +57,7 @@ bool Update(const Vector7f& step, const Eigen::Vector3f& middle,
     place.scale = scale;
   }
   place.shift = center - place.scale * (place.rotation * middle);
-  return true;
+  return angle + step.segment<3>(3).norm() + std::abs(step[6]);
 }
 
 }  // namespace
@@ -118,9 +118,9 @@ float Cover(const Similarity& place, const LaidSurface& laid, size_t begin,
   return sum / static_cast<float>(end - begin);
 }
 
-bool AlignStep(const LaidSurface& laid, size_t count,
-               const SampledSurface& target, float tau, float expected_scale,
-               Similarity& place) {
+float AlignStep(const LaidSurface& laid, size_t count,
+                const SampledSurface& target, float tau, float expected_scale,
+                Similarity& place) {
   count = std::min(count, laid.points.size());
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   for (size_t i = 0; i < count; ++i) middle += laid.points[i];
@@ -150,7 +150,7 @@ bool AlignStep(const LaidSurface& laid, size_t count,
     }
     ++aligned;
   }
-  if (aligned < kMinAligned) return false;
+  if (aligned < kMinAligned) return 0;
   equations.matrix.diagonal().array() += 1e-6F * equations.matrix.trace();
   const Vector7f step =
       equations.matrix.selfadjointView<Eigen::Lower>().ldlt().solve(

@@ -43,15 +43,16 @@ float Cover(const Similarity& place, const LaidSurface& laid, size_t begin,
             size_t end, const SampledSurface& target, float tau);
 
 // One step of point-to-plane alignment in seven degrees of freedom, over the
-// first `count` samples, weighted like Cover; false when too few lie near.
+// first `count` samples, weighted like Cover. Returns about how far it moved,
+// in lengths of the laid surface's own frame; 0 when too few samples lie near.
 // The scale stays within a factor of 1.6 of `expected_scale`.
 //
 // Source   Chen, Medioni, "Object Modelling by Registration of Multiple Range
 //          Images", IVC 1992; a weak point-to-point term keeps sliding
 //          directions still.
-bool AlignStep(const LaidSurface& laid, size_t count,
-               const SampledSurface& target, float tau, float expected_scale,
-               Similarity& place);
+float AlignStep(const LaidSurface& laid, size_t count,
+                const SampledSurface& target, float tau, float expected_scale,
+                Similarity& place);
 
 }  // namespace argmesh
 

@@ -1,7 +1,7 @@
 #include "core/geometry/point_tree.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
 
 namespace argmesh {
 namespace {
@@ -10,47 +10,50 @@ constexpr int32_t kLeafSize = 10;
 
 }  // namespace
 
-PointTree::PointTree(std::span<const Eigen::Vector3f> points)
-    : numbers_(points.size()) {
-  std::iota(numbers_.begin(), numbers_.end(), 0);
+PointTree::PointTree(std::span<const Eigen::Vector3f> points) {
   if (points.empty()) return;
+  std::vector<NumberedPoint> numbered;
+  numbered.reserve(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    numbered.push_back({points[i], static_cast<int32_t>(i)});
+  }
   nodes_.reserve(points.size() / 2 + 1);
-  Build(points, 0, static_cast<int32_t>(points.size()));
+  Build(numbered, 0, static_cast<int32_t>(points.size()));
   points_.reserve(points.size());
-  for (const int32_t number : numbers_) {
-    points_.push_back(points[static_cast<size_t>(number)]);
+  numbers_.reserve(points.size());
+  for (const NumberedPoint& point : numbered) {
+    points_.push_back(point.position);
+    numbers_.push_back(point.number);
   }
 }
 
-void PointTree::Build(std::span<const Eigen::Vector3f> points, int32_t begin,
+void PointTree::Build(std::span<NumberedPoint> points, int32_t begin,
                       int32_t end) {
   const size_t self = nodes_.size();
   Node node;
   node.begin = begin;
   node.end = end;
-  const auto point = [&](int32_t number) -> const Eigen::Vector3f& {
-    return points[static_cast<size_t>(number)];
-  };
-  node.low = node.high = point(numbers_[static_cast<size_t>(begin)]);
-  for (int32_t i = begin + 1; i < end; ++i) {
-    const Eigen::Vector3f& x = point(numbers_[static_cast<size_t>(i)]);
-    node.low = node.low.cwiseMin(x);
-    node.high = node.high.cwiseMax(x);
+  node.low = node.high = points.front().position;
+  for (const NumberedPoint& point : points) {
+    node.low = node.low.cwiseMin(point.position);
+    node.high = node.high.cwiseMax(point.position);
   }
   nodes_.push_back(node);
   if (end - begin <= kLeafSize) return;
   Eigen::Index axis = 0;
   (node.high - node.low).maxCoeff(&axis);
-  const int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(numbers_.begin() + begin, numbers_.begin() + middle,
-                   numbers_.begin() + end, [&](int32_t a, int32_t b) {
-                     const float x = point(a)[axis];
-                     const float y = point(b)[axis];
-                     return x != y ? x < y : a < b;
-                   });
-  Build(points, begin, middle);
+  const size_t half = points.size() / 2;
+  std::nth_element(
+      points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half),
+      points.end(), [axis](const NumberedPoint& a, const NumberedPoint& b) {
+        const float x = a.position[axis];
+        const float y = b.position[axis];
+        return x != y ? x < y : a.number < b.number;
+      });
+  const int32_t middle = begin + static_cast<int32_t>(half);
+  Build(points.first(half), begin, middle);
   nodes_[self].right = static_cast<int32_t>(nodes_.size());
-  Build(points, middle, end);
+  Build(points.subspan(half), middle, end);
 }
 
 PointTree::Nearest PointTree::FindNearest(const Eigen::Vector3f& query,

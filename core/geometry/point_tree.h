@@ -51,8 +51,13 @@ class PointTree {
     int32_t right = 0;
   };
 
-  void Build(std::span<const Eigen::Vector3f> points, int32_t begin,
-             int32_t end);
+  struct NumberedPoint {
+    Eigen::Vector3f position;
+    int32_t number;
+  };
+
+  // `points` are those of places begin .. end-1 and are put in order.
+  void Build(std::span<NumberedPoint> points, int32_t begin, int32_t end);
   float SquaredToBox(const Node& node, const Eigen::Vector3f& query) const {
     return (node.low - query)
         .cwiseMax(query - node.high)
