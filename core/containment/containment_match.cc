@@ -180,7 +180,8 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
   const std::array<int, kNumShifts> shifts = ShiftsByVotes(votes);
   for (const int shift : std::span(shifts).first<kShiftsTried>()) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
-    const WindowPairs pairs(query, options.flipped, target, shift);
+    const WindowPairs pairs(query, options.weights, options.flipped, target,
+                            shift);
     if (pairs.empty()) continue;
     TryShift(shift, pairs, laid, target.surface, effort, random, found);
     if (found.fine > kSettled) break;

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 
 #include "absl/status/statusor.h"
 #include "core/base/stop_token.h"
@@ -42,6 +43,8 @@ struct VerifyOptions {
   bool thorough = true;  // 400 transforms tried, not 80; 5 refined, not 2
   bool flipped = false;
   uint64_t seed = 1;
+  // VoteResult::weights of the query; empty: every window weighs the same.
+  std::span<const float> weights = {};
 };
 
 // `votes` are those of this target; its best two shifts are tried.

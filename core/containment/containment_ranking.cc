@@ -144,6 +144,7 @@ class Chain {
     verify.thorough = thorough;
     verify.flipped = flipped_;
     verify.seed = options_.seed + (thorough ? 1 : 0);
+    verify.weights = votes_.weights;
     if (candidate.prepared == nullptr) {
       candidate.prepared = std::make_shared<PreparedTarget>(*candidate.windows);
     }

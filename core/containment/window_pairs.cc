@@ -79,18 +79,26 @@ std::optional<Similarity> Fit(const Pair& from, const Pair& to,
 
 }  // namespace
 
-WindowPairs::WindowPairs(const QueryWindows& query, bool flipped,
+WindowPairs::WindowPairs(const QueryWindows& query,
+                         std::span<const float> weights, bool flipped,
                          const PreparedTarget& target, int shift)
     : flipped_(flipped), expected_scale_(ShiftScale(shift)) {
   const float unit = DefaultWindowCodebook().unit;
   const float falloff = -1 / (2 * kSigma * kSigma * unit * unit);
   double total = 0;
+  size_t next = 0;
   for (size_t l = 0; l < query.levels.size(); ++l) {
     const std::optional<size_t> met = MetLevel(l, shift);
+    const std::vector<QueryWindow>& windows = query.levels[l].windows;
+    const size_t first = next;
+    next += windows.size();
     if (!met) continue;
     const PreparedLevel& level = target.levels[*met];
     if (level.descriptors.size() == 0) continue;
-    for (const QueryWindow& window : query.levels[l].windows) {
+    for (size_t i = 0; i < windows.size(); ++i) {
+      const QueryWindow& window = windows[i];
+      const double weight =
+          first + i < weights.size() ? weights[first + i] : 1.0;
       const auto nearest = level.descriptors.FindNearest<kCandidates>(
           DescriptorOf(window, flipped));
       for (const DescriptorTable::Entry& entry : nearest) {
@@ -99,7 +107,7 @@ WindowPairs::WindowPairs(const QueryWindows& query, bool flipped,
         if (likeness < kMinLikeness) continue;
         const auto row = static_cast<size_t>(entry.row);
         matches_.push_back({&window, level.positions[row], level.normals[row]});
-        total += likeness * likeness;
+        total += weight * likeness * likeness;
         cumulative_.push_back(total);
       }
     }

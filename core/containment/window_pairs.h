@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/random.h"
@@ -23,13 +24,15 @@ struct WindowMatch {
 class WindowPairs {
  public:
   // The three nearest target windows of each query window under a shift.
-  WindowPairs(const QueryWindows& query, bool flipped,
-              const PreparedTarget& target, int shift);
+  // `weights` of query windows as in VoteResult; empty: all the same.
+  WindowPairs(const QueryWindows& query, std::span<const float> weights,
+              bool flipped, const PreparedTarget& target, int shift);
 
   bool empty() const { return matches_.size() < 3; }
 
-  // The place that two drawn matches agree on, if they do: alike windows are
-  // drawn more often; distances and angles between them must correspond.
+  // The place that two drawn matches agree on, if they do: alike windows and
+  // heavy ones are drawn more often; distances and angles between them must
+  // correspond.
   std::optional<Similarity> Draw(Random& random) const;
 
  private:

@@ -33,6 +33,7 @@ struct Options {
   RankContainmentOptions rank;
   int threads = 2;
   int every = 1;
+  std::string only;  // query paths that begin so
   bool rows = false;
 };
 
@@ -185,6 +186,24 @@ Row Judge(const Gallery& gallery, const Query& query,
   return row;
 }
 
+// The first answer and the source's.
+void PrintRow(const Gallery& gallery, const Query& query,
+              const ContainmentRanking& ranking) {
+  std::printf("%s Dq %.2f common %.2f%s", query.path.c_str(),
+              ranking.distinctiveness, ranking.common_share,
+              ranking.generic ? " generic" : "");
+  for (size_t i = 0; i < ranking.matches.size(); ++i) {
+    const ContainmentMatch& match = ranking.matches[i].match;
+    const std::string& path =
+        gallery.shapes[static_cast<size_t>(ranking.matches[i].slot)].path;
+    if (i > 0 && path != query.source) continue;
+    std::printf("; %zu %s S %.3f C %.3f F %.3f%s", i + 1, path.c_str(),
+                match.votes, match.coarse_cover, match.fine_cover,
+                match.flipped ? " flipped" : "");
+  }
+  std::printf("\n");
+}
+
 absl::StatusOr<Outcome> RunQuery(const Gallery& gallery,
                                  const std::string& folder, const Query& query,
                                  const Options& options) {
@@ -216,15 +235,7 @@ absl::StatusOr<Outcome> RunQuery(const Gallery& gallery,
                       static_cast<size_t>(source - gallery.shapes.begin()));
   outcome.row[10] = extract;
   if (options.rows) {
-    const RankedContainment& first = ranking.matches.front();
-    std::printf(
-        "%s source1 %.0f accept %.0f other %.0f Dq %.2f common %.2f; "
-        "first %s S %.3f C %.3f F %.3f%s\n",
-        query.path.c_str(), outcome.row[2], outcome.row[5], outcome.row[6],
-        ranking.distinctiveness, ranking.common_share,
-        gallery.shapes[static_cast<size_t>(first.slot)].path.c_str(),
-        first.match.votes, first.match.coarse_cover, first.match.fine_cover,
-        first.match.flipped ? " flipped" : "");
+    PrintRow(gallery, query, ranking);
   }
   return outcome;
 }
@@ -252,7 +263,10 @@ absl::Status RunFolder(const Gallery& gallery, const std::string& folder,
   std::vector<Outcome> outcomes(queries.size());
   std::vector<absl::Status> statuses(queries.size());
   ParallelFor(queries.size(), options.threads, [&](size_t i) {
-    if (i % static_cast<size_t>(options.every) != 0) return;
+    if (i % static_cast<size_t>(options.every) != 0 ||
+        !queries[i].path.starts_with(options.only)) {
+      return;
+    }
     absl::StatusOr<Outcome> outcome =
         RunQuery(gallery, folder, queries[i], options);
     statuses[i] = outcome.status();
@@ -293,6 +307,7 @@ int main(int argc, char** argv) {
   app.add_option("--flipped", options.rank.try_flipped);
   app.add_option("--every", options.every, "Every n-th query only");
   app.add_option("--threads", options.threads);
+  app.add_option("--only", options.only, "Queries whose path begins so");
   app.add_flag("--rows", options.rows, "A line for each query");
   CLI11_PARSE(app, argc, argv);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);

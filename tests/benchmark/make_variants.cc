@@ -41,7 +41,8 @@ struct Options {
   double disc = 0;      // radius in square roots of the area
   bool similarity = false;
   bool parts = false;
-  double min_part_area = 0.02;  // share of the shape
+  double min_part_area = 0.02;  // shares of the shape
+  double max_part_area = 1;
 };
 
 struct Variant {
@@ -96,7 +97,8 @@ absl::StatusOr<TriangleMesh> Change(TriangleMesh mesh, const Options& options,
 // Faces of the largest connected piece of each named part.
 std::vector<Variant> CutParts(const LabelledMesh& item,
                               const TriangleMesh& mesh,
-                              const HandMadeParts& parts, double min_area) {
+                              const HandMadeParts& parts,
+                              const Options& options) {
   const std::vector<int32_t> pieces = ConnectedParts(mesh, parts.part_of_face);
   const Eigen::VectorXd areas = ComputeFaceAreas(mesh);
   std::vector<Variant> variants;
@@ -108,7 +110,9 @@ std::vector<Variant> CutParts(const LabelledMesh& item,
           areas[static_cast<Eigen::Index>(f)];
     }
     const auto largest = std::max_element(piece_area.begin(), piece_area.end());
-    if (largest == piece_area.end() || *largest < min_area * areas.sum()) {
+    if (largest == piece_area.end() ||
+        *largest < options.min_part_area * areas.sum() ||
+        *largest > options.max_part_area * areas.sum()) {
       continue;
     }
     const auto root = static_cast<int32_t>(largest - piece_area.begin());
@@ -140,7 +144,7 @@ absl::StatusOr<std::vector<Variant>> MakeVariants(const LabelledMesh& item,
   if (options.parts) {
     ARGMESH_ASSIGN_OR_RETURN(const HandMadeParts parts,
                              ReadHandMadeParts(path, mesh.num_faces()));
-    variants = CutParts(item, mesh, parts, options.min_part_area);
+    variants = CutParts(item, mesh, parts, options);
   } else {
     variants.push_back({item.path, item.label, item.path, std::move(mesh)});
   }
@@ -232,6 +236,7 @@ int main(int argc, char** argv) {
                "Random rotation, scale, translation and numbering");
   app.add_flag("--parts", options.parts, "Hand-made parts, one file each");
   app.add_option("--min-part-area", options.min_part_area);
+  app.add_option("--max-part-area", options.max_part_area);
   CLI11_PARSE(app, argc, argv);
   const absl::Status status = argmesh::Run(options);
   if (!status.ok()) std::printf("%s\n", status.ToString().c_str());
