@@ -24,7 +24,7 @@ constexpr float kCoarse = 0.06F;
 constexpr float kFine = 0.02F;
 constexpr double kVerifiedCover = 0.95;
 
-constexpr size_t kShiftsTried = 2;
+constexpr size_t kShiftsTried = 3;
 constexpr int kDrawsPerPlace = 10;
 // Samples: a glance, a look, C and F.
 constexpr size_t kGlance = 16;
@@ -32,46 +32,51 @@ constexpr size_t kLook = 64;
 constexpr size_t kCoarseSamples = 256;
 constexpr size_t kFineSamples = 600;
 constexpr float kWorthRefining = 0.25F;  // a look that is refined at all
-constexpr float kSettled = 0.97F;        // F at which no further shift is tried
 constexpr float kPlainHit = 0.92F;       // a look at which drawing stops
 
 struct Effort {
-  int places;  // looked at for each shift
+  int places;  // looked at
   size_t refined;
   float worth_fine;  // C that is refined further
 };
-constexpr Effort kQuick{80, 2, 0.8F};
-constexpr Effort kThorough{400, 5, 0.5F};
+constexpr Effort kQuick{150, 3, 0.8F};
+constexpr Effort kThorough{900, 8, 0.5F};
 
 struct Placed {
   float cover = 0;
+  float expected_scale = 1;
   Similarity place;
 };
 
-// Best first; equal covers stay in the order they were drawn in.
-std::vector<Placed> LookAtPlaces(const WindowPairs& pairs,
+// The cover of a look at a place; 0 when a glance shows that it is far behind
+// the best.
+float LookAt(const Similarity& place, const LaidSurface& laid,
+             const SampledSurface& target, float best) {
+  constexpr float kTau = 1.3F * kCoarse;
+  const float glance = Cover(place, laid, 0, kGlance, target, kTau);
+  if (glance < 0.6F * best - 0.05F) return 0;
+  const float rest = Cover(place, laid, kGlance, kLook, target, kTau);
+  return (glance * kGlance + rest * (kLook - kGlance)) / float{kLook};
+}
+
+// Places drawn from each of `pairs` in turn, best first; equal covers stay in
+// the order they were drawn in.
+std::vector<Placed> LookAtPlaces(std::span<const WindowPairs> pairs,
                                  const LaidSurface& laid,
                                  const SampledSurface& target, int count,
                                  Random& random) {
   std::vector<Placed> placed;
   float best = 0;
   for (int draw = 0;
-       draw < count * kDrawsPerPlace && static_cast<int>(placed.size()) < count;
+       draw < count * kDrawsPerPlace &&
+       static_cast<int>(placed.size()) < count && best < kPlainHit;
        ++draw) {
-    const std::optional<Similarity> place = pairs.Draw(random);
+    const WindowPairs& drawn = pairs[static_cast<size_t>(draw) % pairs.size()];
+    const std::optional<Similarity> place = drawn.Draw(random);
     if (!place) continue;
-    constexpr float kTau = 1.3F * kCoarse;
-    const float glance = Cover(*place, laid, 0, kGlance, target, kTau);
-    if (glance < 0.6F * best - 0.05F) {
-      placed.push_back({0, *place});
-      continue;
-    }
-    const float rest = Cover(*place, laid, kGlance, kLook, target, kTau);
-    const float cover =
-        (glance * kGlance + rest * (kLook - kGlance)) / float{kLook};
-    placed.push_back({cover, *place});
+    const float cover = LookAt(*place, laid, target, best);
+    placed.push_back({cover, drawn.expected_scale(), *place});
     best = std::max(best, cover);
-    if (best > kPlainHit) break;
   }
   std::stable_sort(
       placed.begin(), placed.end(),
@@ -105,38 +110,32 @@ void Refine(const Refinement& refinement, const LaidSurface& laid,
   }
 }
 
-// The best places of a query on a target at two finenesses.
+// The best place of a query on a target and its covers at two finenesses.
 struct Found {
   float coarse = 0;
   float fine = 0;
-  Similarity place;  // of `fine`; of `coarse` while fine is 0
+  Similarity place;
 };
 
-void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
-              const SampledSurface& target, const Effort& effort,
-              Random& random, Found& found) {
-  const float scale = ShiftScale(shift);
+Found FindPlace(std::span<const WindowPairs> pairs, const LaidSurface& laid,
+                const SampledSurface& target, const Effort& effort,
+                Random& random) {
   std::vector<Placed> placed =
       LookAtPlaces(pairs, laid, target, effort.places, random);
   placed.resize(std::min(placed.size(), effort.refined));
-  std::erase_if(placed, [](const Placed& candidate) {
-    return candidate.cover < kWorthRefining;
-  });
   Placed best;
   for (Placed& candidate : placed) {
-    Refine(kCoarseRefinement, laid, target, scale, candidate.place);
+    if (candidate.cover < kWorthRefining) break;
+    Refine(kCoarseRefinement, laid, target, candidate.expected_scale,
+           candidate.place);
     candidate.cover =
         Cover(candidate.place, laid, 0, kCoarseSamples, target, kCoarse);
     if (candidate.cover > best.cover) best = candidate;
   }
-  if (best.cover <= 0) return;
-  if (best.cover > found.coarse) {
-    found.coarse = best.cover;
-    if (found.fine <= 0) found.place = best.place;
-  }
-  if (best.cover < effort.worth_fine) return;
+  Found found{best.cover, 0, best.place};
+  if (best.cover < effort.worth_fine) return found;
   Similarity refined = best.place;
-  Refine(kFineRefinement, laid, target, scale, refined);
+  Refine(kFineRefinement, laid, target, best.expected_scale, refined);
   for (const Similarity& place : {refined, best.place}) {
     const float fine = Cover(place, laid, 0, kFineSamples, target, kFine);
     if (fine > found.fine) {
@@ -144,6 +143,7 @@ void TryShift(int shift, const WindowPairs& pairs, const LaidSurface& laid,
       found.place = place;
     }
   }
+  return found;
 }
 
 // From the frames of the windows to the meshes' own units.
@@ -176,15 +176,17 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
   const LaidSurface laid = MakeLaidSurface(query, options.flipped);
   const Effort& effort = options.thorough ? kThorough : kQuick;
   Random random(options.seed);
-  Found found;
+  std::vector<WindowPairs> pairs;
   const std::array<int, kNumShifts> shifts = ShiftsByVotes(votes);
   for (const int shift : std::span(shifts).first<kShiftsTried>()) {
-    ARGMESH_RETURN_IF_ERROR(stop.Check());
-    const WindowPairs pairs(query, options.weights, options.flipped, target,
-                            shift);
-    if (pairs.empty()) continue;
-    TryShift(shift, pairs, laid, target.surface, effort, random, found);
-    if (found.fine > kSettled) break;
+    WindowPairs of_shift(query, options.weights, options.flipped, target,
+                         shift);
+    if (!of_shift.empty()) pairs.push_back(std::move(of_shift));
+  }
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  Found found;
+  if (!pairs.empty()) {
+    found = FindPlace(pairs, laid, target.surface, effort, random);
   }
   ContainmentMatch match;
   match.votes = votes.score;

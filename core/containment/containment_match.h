@@ -40,14 +40,14 @@ struct ContainmentMatch {
 };
 
 struct VerifyOptions {
-  bool thorough = true;  // 400 transforms tried, not 80; 5 refined, not 2
+  bool thorough = true;  // 900 transforms tried, not 150; 8 refined, not 3
   bool flipped = false;
   uint64_t seed = 1;
   // VoteResult::weights of the query; empty: every window weighs the same.
   std::span<const float> weights = {};
 };
 
-// `votes` are those of this target; its best two shifts are tried.
+// `votes` are those of this target; its best three shifts are tried.
 absl::StatusOr<ContainmentMatch> VerifyContainment(
     const QueryWindows& query, const PreparedTarget& target,
     const ShapeVotes& votes, const VerifyOptions& options = {},

@@ -23,7 +23,9 @@ constexpr double kDistinctive = 0.4;
 constexpr double kCovered = 0.9;      // F that counts as lying on a shape
 constexpr double kCommonShare = 0.1;  // of verified shapes: too many
 constexpr double kTieMargin = 0.1;    // of scores
-constexpr float kSettled = 0.98F;     // F that more effort cannot raise much
+// Votes inside out, in votes as given, from which on that is tried.
+constexpr double kWorthTurning = 0.9;
+constexpr float kSettled = 0.98F;  // F that more effort cannot raise much
 
 class Stopwatch {
  public:
@@ -105,16 +107,30 @@ class Chain {
         stop_(stop),
         flipped_(flipped) {}
 
-  absl::StatusOr<ContainmentRanking> Run() {
+  absl::Status Vote() {
     Stopwatch watch;
     VoteOptions vote_options;
     vote_options.limit = std::max(options_.exact_limit, options_.limit);
     vote_options.flipped = flipped_;
     ARGMESH_ASSIGN_OR_RETURN(votes_, index_.Vote(query_, vote_options, stop_));
+    index_seconds_ = watch.Lap();
+    return absl::OkStatus();
+  }
+
+  // The most that any shape got in Vote.
+  double MostVotes() const {
+    return votes_.shapes.empty() ? 0 : votes_.shapes.front().score;
+  }
+
+  double index_seconds() const { return index_seconds_; }
+
+  // After Vote.
+  absl::StatusOr<ContainmentRanking> Finish() {
+    Stopwatch watch;
     ContainmentRanking ranking;
     ranking.considered = index_.size();
     ranking.distinctiveness = votes_.distinctiveness;
-    ranking.index_seconds = watch.Lap();
+    ranking.index_seconds = index_seconds_;
     ARGMESH_RETURN_IF_ERROR(VoteOnWindows());
     ranking.loaded = static_cast<int64_t>(candidates_.size());
     ranking.exact_seconds = watch.Lap();
@@ -241,6 +257,7 @@ class Chain {
   VoteResult votes_;
   std::vector<Candidate> candidates_;
   size_t num_verified_ = 0;
+  double index_seconds_ = 0;
 };
 
 bool AnyVerified(const ContainmentRanking& ranking) {
@@ -256,19 +273,23 @@ absl::StatusOr<ContainmentRanking> RankContainment(
     const LoadWindows& load, const RankContainmentOptions& options,
     const ParallelRunner& parallel_for, const StopToken& stop) {
   ARGMESH_RETURN_IF_ERROR(CheckOptions(options));
-  ARGMESH_ASSIGN_OR_RETURN(
-      ContainmentRanking ranking,
-      Chain(query, index, load, options, parallel_for, stop, false).Run());
+  Chain given(query, index, load, options, parallel_for, stop, false);
+  ARGMESH_RETURN_IF_ERROR(given.Vote());
+  const double most_votes = given.MostVotes();
+  ARGMESH_ASSIGN_OR_RETURN(ContainmentRanking ranking, given.Finish());
   if (!options.try_flipped || AnyVerified(ranking)) return ranking;
-  ARGMESH_ASSIGN_OR_RETURN(
-      ContainmentRanking flipped,
-      Chain(query, index, load, options, parallel_for, stop, true).Run());
-  ContainmentRanking& answer = AnyVerified(flipped) ? flipped : ranking;
-  const ContainmentRanking& other = AnyVerified(flipped) ? ranking : flipped;
-  answer.index_seconds += other.index_seconds;
-  answer.exact_seconds += other.exact_seconds;
-  answer.verify_seconds += other.verify_seconds;
-  return answer;
+  Chain turned(query, index, load, options, parallel_for, stop, true);
+  ARGMESH_RETURN_IF_ERROR(turned.Vote());
+  if (turned.MostVotes() < kWorthTurning * most_votes) {
+    ranking.index_seconds += turned.index_seconds();
+    return ranking;
+  }
+  ARGMESH_ASSIGN_OR_RETURN(ContainmentRanking flipped, turned.Finish());
+  if (AnyVerified(flipped)) std::swap(ranking, flipped);
+  ranking.index_seconds += flipped.index_seconds;
+  ranking.exact_seconds += flipped.exact_seconds;
+  ranking.verify_seconds += flipped.verify_seconds;
+  return ranking;
 }
 
 }  // namespace argmesh

@@ -1,15 +1,15 @@
 // Which shapes of a collection contain a query: index, exact voting,
 // verification, each for fewer shapes than the one before.
 //
-// Orientation  as given; when nothing is verified that way, the query is tried
-//              turned inside out.
+// Orientation  as given; when nothing is verified that way and the index votes
+//              about as much for it, the query is tried turned inside out.
 // Repeats      equal index, windows, query and options give equal bits,
 //              whatever `parallel_for` does.
 // Fails        what `load` fails with; kInvalidArgument for an option outside
 //              its range; kCancelled, kDeadlineExceeded
 // Cost         index 10 ms + 25 us a shape, exact voting 1 ms for each of
-//              `exact_limit`, verification 6 ms for each of `verify_limit` and
-//              12 ms for each of `thorough_limit`, over the threads.
+//              `exact_limit`, verification 8 ms for each of `verify_limit` and
+//              20 ms for each of `thorough_limit`, over the threads.
 #ifndef ARGMESH_CORE_CONTAINMENT_CONTAINMENT_RANKING_H_
 #define ARGMESH_CORE_CONTAINMENT_CONTAINMENT_RANKING_H_
 
@@ -29,7 +29,7 @@ namespace argmesh {
 struct RankContainmentOptions {
   int limit = 10;           // matches returned, >= 1
   int exact_limit = 150;    // shapes whose windows are loaded, >= limit
-  int verify_limit = 60;    // >= 1
+  int verify_limit = 100;   // >= 1
   int thorough_limit = 20;  // >= 1
   bool try_flipped = true;
   uint64_t seed = 1;

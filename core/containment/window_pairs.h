@@ -28,6 +28,7 @@ class WindowPairs {
   WindowPairs(const QueryWindows& query, std::span<const float> weights,
               bool flipped, const PreparedTarget& target, int shift);
 
+  float expected_scale() const { return expected_scale_; }
   bool empty() const { return matches_.size() < 3; }
 
   // The place that two drawn matches agree on, if they do: alike windows and
