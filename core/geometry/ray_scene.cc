@@ -57,6 +57,19 @@ bool FillGeometry(RTCGeometry geometry, const TriangleMesh& mesh) {
   return true;
 }
 
+void SetRay(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+            float min_distance, RTCRay& ray) {
+  ray.org_x = origin.x();
+  ray.org_y = origin.y();
+  ray.org_z = origin.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tnear = min_distance;
+  ray.tfar = std::numeric_limits<float>::infinity();
+  ray.mask = std::numeric_limits<unsigned int>::max();
+}
+
 }  // namespace
 
 struct RayScene::Scene {
@@ -103,21 +116,23 @@ std::optional<float> RayScene::FindExit(const Eigen::Vector3f& origin,
                                         const Eigen::Vector3f& direction,
                                         float min_distance) const {
   RTCRayHit ray{};
-  ray.ray.org_x = origin.x();
-  ray.ray.org_y = origin.y();
-  ray.ray.org_z = origin.z();
-  ray.ray.dir_x = direction.x();
-  ray.ray.dir_y = direction.y();
-  ray.ray.dir_z = direction.z();
-  ray.ray.tnear = min_distance;
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
-  ray.ray.mask = std::numeric_limits<unsigned int>::max();
+  SetRay(origin, direction, min_distance, ray.ray);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene_->handle, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return ray.ray.tfar;
+}
+
+bool RayScene::IsOccluded(const Eigen::Vector3f& origin,
+                          const Eigen::Vector3f& direction) const {
+  RTCRay ray{};
+  SetRay(origin, direction, 0, ray);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_->handle, &context, &ray);
+  return ray.tfar < 0;  // so the ray tracer marks a hit
 }
 
 }  // namespace argmesh

@@ -1,8 +1,8 @@
-// A mesh prepared for casting rays from its inside.
+// A mesh prepared for casting rays from its surface and its inside.
 //
 // Repeats  equal input gives bit-equal output; everything runs on the calling
 //          thread.
-// Cost     O(m log m) to create, O(log m) a ray. FindExit is thread-safe.
+// Cost     O(m log m) to create, O(log m) a ray. Rays are thread-safe.
 #ifndef ARGMESH_CORE_GEOMETRY_RAY_SCENE_H_
 #define ARGMESH_CORE_GEOMETRY_RAY_SCENE_H_
 
@@ -32,6 +32,11 @@ class RayScene {
   std::optional<float> FindExit(const Eigen::Vector3f& origin,
                                 const Eigen::Vector3f& direction,
                                 float min_distance) const;
+
+  // Whether a ray from `origin` along `direction` meets any face, from
+  // whichever side.
+  bool IsOccluded(const Eigen::Vector3f& origin,
+                  const Eigen::Vector3f& direction) const;
 
  private:
   struct Scene;

@@ -1,0 +1,62 @@
+#include "core/signature/signature_similarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/signature/similarity_scale.h"
+
+namespace argmesh {
+namespace {
+
+constexpr float kFixedPoint = 1 << 14;  // of a length of 1
+
+double SquaredDistance(const std::vector<float>& a,
+                       const std::vector<float>& b) {
+  double squared = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double difference =
+        static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    squared += difference * difference;
+  }
+  return squared;
+}
+
+// Parts of length up to 1 each, at most 2^28 together with themselves or with
+// others: no sum of products overflows.
+int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
+  int32_t sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    sum += static_cast<int32_t>(a[i]) * static_cast<int32_t>(b[i]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double SignatureSimilarity(const ShapeSignature& a, const ShapeSignature& b) {
+  return SimilarityOfDistance(std::sqrt((SquaredDistance(a.point, b.point) +
+                                         SquaredDistance(a.view, b.view)) /
+                                        2));
+}
+
+PackedSignature::PackedSignature(const ShapeSignature& signature) {
+  values_.reserve(kSignatureDims);
+  for (const std::vector<float>* part : {&signature.point, &signature.view}) {
+    for (const float value : *part) {
+      values_.push_back(
+          static_cast<int16_t>(std::lround(value * kFixedPoint)));
+    }
+  }
+  squared_ = Dot(values_, values_);
+}
+
+double SignatureSimilarity(const PackedSignature& a, const PackedSignature& b) {
+  const double squared =
+      (static_cast<double>(a.squared_) + static_cast<double>(b.squared_) -
+       2 * static_cast<double>(Dot(a.values_, b.values_))) /
+      (static_cast<double>(kFixedPoint) * static_cast<double>(kFixedPoint));
+  return SimilarityOfDistance(std::sqrt(std::max(0.0, squared) / 2));
+}
+
+}  // namespace argmesh
