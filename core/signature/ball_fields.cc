@@ -83,8 +83,8 @@ BallFields MeasureBall(std::span<const Neighbor> ball,
   fields.shape_index = static_cast<float>(
       2 / std::numbers::pi *
       std::atan2(k.max + k.min, std::max(k.max - k.min, kMinSpread)));
-  fields.curvedness = static_cast<float>(std::log(
-      std::sqrt((k.max * k.max + k.min * k.min) / 2) + kFlatness));
+  fields.curvedness = static_cast<float>(
+      std::log(std::sqrt((k.max * k.max + k.min * k.min) / 2) + kFlatness));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (const Neighbor& n : ball) sum += n.offset;
   const auto count = static_cast<float>(ball.size());

@@ -66,9 +66,9 @@ Frame FindFrame(const TriangleMesh& mesh, const Eigen::VectorXd& areas) {
 // Integrals odd in the axes that are named, along axes scaled to deviation 1;
 // each is bounded by dividing by 1 + r^4.
 struct OddMoments {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();    // odd in one axis
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // odd in one axis
   Eigen::Vector3d cubic = Eigen::Vector3d::Zero();
-  Eigen::Vector3d yz = Eigen::Vector3d::Zero();   // odd in the two others
+  Eigen::Vector3d yz = Eigen::Vector3d::Zero();  // odd in the two others
   double xyz = 0;
   double far_xyz = 0;
 };
@@ -117,8 +117,8 @@ std::array<float, kChiralDims> MeasureChirality(const TriangleMesh& mesh) {
       SignedRoot(m.x[0] * m.x[1] * m.cubic[2], 1.0 / 3)};
   std::array<float, kChiralDims> chirality{};
   for (size_t i = 0; i < chirality.size(); ++i) {
-    chirality[i] = static_cast<float>(
-        std::clamp(frame.clarity * values[i], -1.0, 1.0));
+    chirality[i] =
+        static_cast<float>(std::clamp(frame.clarity * values[i], -1.0, 1.0));
   }
   return chirality;
 }

@@ -27,8 +27,8 @@ constexpr std::string_view kWhat = "signature codebook";
 
 template <typename Matrix>
 void WriteMatrix(const Matrix& matrix, ByteWriter& writer) {
-  writer.WriteF32Array(
-      std::span<const float>(matrix.data(), static_cast<size_t>(matrix.size())));
+  writer.WriteF32Array(std::span<const float>(
+      matrix.data(), static_cast<size_t>(matrix.size())));
 }
 
 template <typename Matrix>
@@ -144,10 +144,10 @@ absl::StatusOr<Codebook> DecodeCodebook(std::string_view bytes) {
 }
 
 absl::StatusOr<const Codebook*> DefaultCodebook() {
-  static const absl::StatusOr<Codebook> codebook = DecodeCodebook(
-      {argmesh_signature_codebook_begin,
-       static_cast<size_t>(argmesh_signature_codebook_end -
-                           argmesh_signature_codebook_begin)});
+  static const absl::StatusOr<Codebook> codebook =
+      DecodeCodebook({argmesh_signature_codebook_begin,
+                      static_cast<size_t>(argmesh_signature_codebook_end -
+                                          argmesh_signature_codebook_begin)});
   if (!codebook.ok()) {
     return absl::InternalError(absl::StrFormat(
         "the program's copy: %s", std::string(codebook.status().message())));

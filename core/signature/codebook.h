@@ -16,10 +16,10 @@
 
 namespace argmesh {
 
-inline constexpr int kNumFields = 12;      // quantities of a point
-inline constexpr int kFieldKnots = 65;     // of the scale of each quantity
+inline constexpr int kNumFields = 12;   // quantities of a point
+inline constexpr int kFieldKnots = 65;  // of the scale of each quantity
 inline constexpr int kPointMixtureSize = 32;
-inline constexpr int kPatchDims = 128;     // gradient histogram of a patch
+inline constexpr int kPatchDims = 128;  // gradient histogram of a patch
 inline constexpr int kPatchAxes = 32;
 inline constexpr int kViewMixtureSize = 16;
 // Knots stand for the normal scores -kMaxScore .. kMaxScore in even steps:

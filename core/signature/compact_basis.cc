@@ -77,8 +77,8 @@ absl::StatusOr<Eigen::MatrixXf> FindAxes(const Eigen::MatrixXf& rows,
     basis = Orthonormalize(rows.transpose() * seen);
   }
   const Eigen::MatrixXd seen = (rows * basis).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      seen.transpose() * seen);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(seen.transpose() *
+                                                              seen);
   const Eigen::VectorXd variances = solver.eigenvalues();
   Eigen::Index kept = 0;
   while (kept < std::min<Eigen::Index>(searched, kCompactDims) &&
@@ -87,8 +87,8 @@ absl::StatusOr<Eigen::MatrixXf> FindAxes(const Eigen::MatrixXf& rows,
     ++kept;
   }
   Eigen::MatrixXf axes =
-      basis * solver.eigenvectors().rowwise().reverse().leftCols(kept)
-                  .cast<float>();
+      basis *
+      solver.eigenvectors().rowwise().reverse().leftCols(kept).cast<float>();
   for (auto axis : axes.colwise()) {
     Eigen::Index largest = 0;
     axis.cwiseAbs().maxCoeff(&largest);
@@ -103,8 +103,8 @@ absl::StatusOr<CompactBasis> FitCompactBasis(
     std::span<const ShapeSignature* const> signatures, const StopToken& stop) {
   CompactBasis basis;
   if (signatures.size() < 2) {
-    return absl::FailedPreconditionError(absl::StrFormat(
-        "a compact basis of %d signatures", signatures.size()));
+    return absl::FailedPreconditionError(
+        absl::StrFormat("a compact basis of %d signatures", signatures.size()));
   }
   const Eigen::MatrixXf rows = CenteredRows(signatures, basis.mean);
   if (!(rows.cwiseAbs().maxCoeff() > 1e-6F)) {
@@ -123,8 +123,8 @@ CompactVector ProjectSignature(const CompactBasis& basis,
   const float length = projected.norm();
   if (!(length > 0)) return vector;
   for (Eigen::Index k = 0; k < projected.size(); ++k) {
-    vector[static_cast<size_t>(k)] = static_cast<int8_t>(
-        std::lround(projected[k] / length * kLargestCode));
+    vector[static_cast<size_t>(k)] =
+        static_cast<int8_t>(std::lround(projected[k] / length * kLargestCode));
   }
   return vector;
 }
@@ -162,18 +162,16 @@ absl::StatusOr<CompactBasis> DecodeCompactBasis(std::string_view bytes) {
   ARGMESH_ASSIGN_OR_RETURN(const uint32_t count,
                            reader.ReadCount(kSignatureDims * sizeof(float)));
   if (count < 1 || count > kCompactDims) {
-    return absl::DataLossError(
-        absl::StrFormat("compact basis: %d axes, not 1 .. %d", count,
-                        kCompactDims));
+    return absl::DataLossError(absl::StrFormat(
+        "compact basis: %d axes, not 1 .. %d", count, kCompactDims));
   }
-  ARGMESH_ASSIGN_OR_RETURN(
-      const std::vector<float> axes,
-      reader.ReadF32Array(size_t{count} * kSignatureDims));
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<float> axes,
+                           reader.ReadF32Array(size_t{count} * kSignatureDims));
   ARGMESH_RETURN_IF_ERROR(reader.ExpectEnd());
   CompactBasis basis;
   basis.mean = Eigen::Map<const Eigen::VectorXf>(mean.data(), kSignatureDims);
-  basis.axes = Eigen::Map<const Eigen::MatrixXf>(axes.data(), kSignatureDims,
-                                                 count);
+  basis.axes =
+      Eigen::Map<const Eigen::MatrixXf>(axes.data(), kSignatureDims, count);
   if (!basis.mean.allFinite() || !basis.axes.allFinite()) {
     return absl::DataLossError("compact basis: not finite");
   }

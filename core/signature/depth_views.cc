@@ -18,8 +18,7 @@ constexpr float kSlack = 1e-5F;  // pixels on an edge belong to both faces
 constexpr float kSmallestTwiceArea = 1e-9F;
 constexpr int kClosingRadius = 2;
 
-using PixelPoints =
-    Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using PixelPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 // The largest z and the smallest z at each pixel.
 struct DepthRange {
@@ -142,8 +141,8 @@ std::array<DepthImage, 2> DepthRenderer::Render(
     if (range.highest[pixel] == kNothing) continue;
     images[0][pixel] = DepthValue(range.highest[pixel]);
     // Seen from behind, right is left.
-    const size_t mirrored = pixel - pixel % kImageSize +
-                            (kImageSize - 1 - pixel % kImageSize);
+    const size_t mirrored =
+        pixel - pixel % kImageSize + (kImageSize - 1 - pixel % kImageSize);
     images[1][mirrored] = DepthValue(-range.lowest[pixel]);
   }
   return images;

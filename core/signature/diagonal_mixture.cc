@@ -43,11 +43,10 @@ Eigen::VectorXf EncodeFisherVector(const DiagonalMixture& mixture,
     const auto variance = mixture.variances.row(c).array();
     const float root = std::sqrt(mixture.weights[c]);
     vector[c] = (mass[c] / count - mixture.weights[c]) / root;
-    vector.segment(k + c * d, d) =
-        ((first.row(c).array() - mass[c] * mean) / variance.sqrt() /
-         (count * root))
-            .matrix()
-            .transpose();
+    vector.segment(k + c * d, d) = ((first.row(c).array() - mass[c] * mean) /
+                                    variance.sqrt() / (count * root))
+                                       .matrix()
+                                       .transpose();
     vector.segment(k + (k + c) * d, d) =
         (((second.row(c).array() - 2 * mean * first.row(c).array() +
            mass[c] * mean.square()) /

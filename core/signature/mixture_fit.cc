@@ -72,8 +72,7 @@ DiagonalMixture ClusterPoints(const PointRows& points,
   mixture.means = SeedCenters(points, options.components, random);
   mixture.weights = Eigen::VectorXf::Constant(
       options.components, 1.0F / static_cast<float>(options.components));
-  mixture.variances =
-      PointRows::Ones(options.components, points.cols());
+  mixture.variances = PointRows::Ones(options.components, points.cols());
   for (int round = 0; round < options.cluster_rounds; ++round) {
     const std::vector<Eigen::Index> nearest =
         AssignPoints(points, mixture.means);
@@ -96,12 +95,11 @@ absl::StatusOr<PrincipalAxes> FitPrincipalAxes(const PointRows& points,
                         points.rows(), points.cols()));
   }
   PrincipalAxes fitted;
-  fitted.mean =
-      points.cast<double>().colwise().mean().cast<float>();
+  fitted.mean = points.cast<double>().colwise().mean().cast<float>();
   const Eigen::MatrixXd centered =
       (points.rowwise() - fitted.mean).cast<double>();
-  const Eigen::MatrixXd covariance = centered.transpose() * centered /
-                                     static_cast<double>(points.rows() - 1);
+  const Eigen::MatrixXd covariance =
+      centered.transpose() * centered / static_cast<double>(points.rows() - 1);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   fitted.axes.resize(points.cols(), count);
   fitted.variances.resize(count);
@@ -121,9 +119,8 @@ absl::StatusOr<PrincipalAxes> FitPrincipalAxes(const PointRows& points,
 absl::StatusOr<DiagonalMixture> FitDiagonalMixture(
     const PointRows& points, const MixtureFitOptions& options) {
   if (options.components < 1 || points.rows() < options.components) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("%d components for %d points", options.components,
-                        points.rows()));
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%d components for %d points", options.components, points.rows()));
   }
   DiagonalMixture mixture = ClusterPoints(points, options);
   for (int round = 0; round < options.rounds; ++round) {

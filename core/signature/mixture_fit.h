@@ -11,8 +11,8 @@
 namespace argmesh {
 
 struct PrincipalAxes {
-  Eigen::RowVectorXf mean;  // D
-  PointRows axes;           // D x count, orthonormal columns, largest first
+  Eigen::RowVectorXf mean;    // D
+  PointRows axes;             // D x count, orthonormal columns, largest first
   Eigen::VectorXf variances;  // count
 };
 
@@ -24,9 +24,9 @@ absl::StatusOr<PrincipalAxes> FitPrincipalAxes(const PointRows& points,
                                                int count);
 
 struct MixtureFitOptions {
-  int components = 16;       // >= 1
-  int cluster_rounds = 20;   // of k-means, from which the fit starts
-  int rounds = 40;           // of expectation maximisation
+  int components = 16;      // >= 1
+  int cluster_rounds = 20;  // of k-means, from which the fit starts
+  int rounds = 40;          // of expectation maximisation
   float min_variance = 1e-4F;
   uint64_t seed = 1;
 };

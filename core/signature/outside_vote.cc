@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kPoints = 4096;
 constexpr int kRays = 8;
-constexpr double kSteepest = 0.95;   // cosine to the normal
+constexpr double kSteepest = 0.95;  // cosine to the normal
 constexpr double kFlattest = 0.25;
-constexpr float kOffset = 1e-4F;     // of a ray's origin from the surface
+constexpr float kOffset = 1e-4F;  // of a ray's origin from the surface
 constexpr int kPointsBetweenChecks = 256;
 
 struct Pieces {

@@ -112,8 +112,7 @@ void FillHistogram(const GradientImage& gradients, const Patch& patch,
       const int row = static_cast<int>(v);
       const float right = u - static_cast<float>(column);
       const float down = v - static_cast<float>(row);
-      const float weight =
-          magnitude * std::exp((dx * dx + dy * dy) * falloff);
+      const float weight = magnitude * std::exp((dx * dx + dy * dy) * falloff);
       float* const cell =
           histogram.data() +
           static_cast<size_t>((row * kPaddedCells + column) * kDirections);

@@ -23,8 +23,8 @@ struct GradientImage {
 GradientImage ComputeGradients(const std::vector<float>& image, int size);
 
 struct Patch {
-  float x = 0, y = 0;   // centre in pixels
-  float side = 0;       // in pixels, > 0
+  float x = 0, y = 0;  // centre in pixels
+  float side = 0;      // in pixels, > 0
 };
 
 // kPatchDims numbers >= 0 of unit length into `histogram`: 4 x 4 cells of 8

@@ -32,13 +32,14 @@ PointLinks LinkPoints(std::span<const Eigen::Vector3f> positions,
   links.offsets.push_back(0);
   for (int32_t i = 0; i < kNodes; ++i) {
     const Eigen::Vector3f& normal = normals[Slot(i)];
-    tree.VisitBall(
-        positions[Slot(i)], kLinkLength, [&](int32_t place, float squared) {
-          const int32_t j = tree.numbers()[Slot(place)];
-          if (j == i || normal.dot(normals[Slot(j)]) < kOpposition) return;
-          links.targets.push_back(j);
-          links.lengths.push_back(std::sqrt(squared));
-        });
+    tree.VisitBall(positions[Slot(i)], kLinkLength,
+                   [&](int32_t place, float squared) {
+                     const int32_t j = tree.numbers()[Slot(place)];
+                     if (j == i || normal.dot(normals[Slot(j)]) < kOpposition)
+                       return;
+                     links.targets.push_back(j);
+                     links.lengths.push_back(std::sqrt(squared));
+                   });
     links.offsets.push_back(static_cast<int32_t>(links.targets.size()));
   }
   return links;

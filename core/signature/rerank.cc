@@ -33,9 +33,9 @@ absl::Status CheckInput(const Eigen::MatrixXd& similarity,
     }
   }
   if (options.neighbors < 1 || options.expansion < 1) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "neighbors %d and expansion %d must be at least 1", options.neighbors,
-        options.expansion));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("neighbors %d and expansion %d must be at least 1",
+                        options.neighbors, options.expansion));
   }
   if (!(options.original_share >= 0 && options.original_share <= 1)) {
     return absl::InvalidArgumentError(absl::StrFormat(
@@ -61,8 +61,8 @@ std::vector<List> RankAll(const Eigen::MatrixXd& distance) {
 }
 
 bool Contains(const List& list, size_t head, Eigen::Index item) {
-  const auto end = list.begin() + static_cast<std::ptrdiff_t>(
-                                      std::min(head, list.size()));
+  const auto end =
+      list.begin() + static_cast<std::ptrdiff_t>(std::min(head, list.size()));
   return std::find(list.begin(), end, item) != end;
 }
 
@@ -118,8 +118,8 @@ Eigen::MatrixXd EncodeNeighborhoods(const Eigen::MatrixXd& distance,
 Eigen::MatrixXd AverageOverNearest(const Eigen::MatrixXd& encoded,
                                    const std::vector<List>& ranks,
                                    size_t count) {
-  Eigen::MatrixXd averaged = Eigen::MatrixXd::Zero(encoded.rows(),
-                                                   encoded.cols());
+  Eigen::MatrixXd averaged =
+      Eigen::MatrixXd::Zero(encoded.rows(), encoded.cols());
   for (Eigen::Index i = 0; i < encoded.rows(); ++i) {
     const List& nearest = ranks[static_cast<size_t>(i)];
     const size_t used = std::min(count, nearest.size());

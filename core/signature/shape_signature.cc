@@ -21,8 +21,7 @@ namespace {
 constexpr float kLengthSlack = 0.01F;  // rounding to half precision
 
 std::vector<float> RoundToHalf(const Eigen::VectorXf& values) {
-  const Eigen::VectorXf rounded =
-      values.cast<Eigen::half>().cast<float>();
+  const Eigen::VectorXf rounded = values.cast<Eigen::half>().cast<float>();
   return {rounded.begin(), rounded.end()};
 }
 
@@ -49,9 +48,8 @@ absl::StatusOr<ShapeSignature> ComputeShapeSignature(
     const TriangleMesh& repaired, const SignatureOptions& options,
     const StopToken& stop, SignatureTimes* times) {
   if (!(options.max_boundary_share >= 0 && options.max_boundary_share <= 1)) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("max_boundary_share %g is not in 0 .. 1",
-                        options.max_boundary_share));
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "max_boundary_share %g is not in 0 .. 1", options.max_boundary_share));
   }
   ARGMESH_ASSIGN_OR_RETURN(const Codebook* codebook, DefaultCodebook());
   const absl::Time start = absl::Now();
@@ -63,8 +61,8 @@ absl::StatusOr<ShapeSignature> ComputeShapeSignature(
   const absl::Time prepared = absl::Now();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows fields,
                            MeasurePointFields(surface, stop));
-  signature.point = RoundToHalf(EncodeFisherVector(
-      codebook->points, NormalizeFields(*codebook, fields)));
+  signature.point = RoundToHalf(
+      EncodeFisherVector(codebook->points, NormalizeFields(*codebook, fields)));
   const absl::Time measured = absl::Now();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows patches,
                            DescribeViews(surface, stop));
@@ -81,8 +79,8 @@ absl::Status CheckShapeSignature(const ShapeSignature& signature) {
   ARGMESH_RETURN_IF_ERROR(CheckPart("view", signature.view, kViewDims));
   for (const float value : signature.chirality) {
     if (!(std::abs(value) <= 1)) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "signature: chirality %g is not in -1 .. 1", value));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("signature: chirality %g is not in -1 .. 1", value));
     }
   }
   return absl::OkStatus();

@@ -35,17 +35,16 @@ int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
 }  // namespace
 
 double SignatureSimilarity(const ShapeSignature& a, const ShapeSignature& b) {
-  return SimilarityOfDistance(std::sqrt((SquaredDistance(a.point, b.point) +
-                                         SquaredDistance(a.view, b.view)) /
-                                        2));
+  return SimilarityOfDistance(std::sqrt(
+      (SquaredDistance(a.point, b.point) + SquaredDistance(a.view, b.view)) /
+      2));
 }
 
 PackedSignature::PackedSignature(const ShapeSignature& signature) {
   values_.reserve(kSignatureDims);
   for (const std::vector<float>* part : {&signature.point, &signature.view}) {
     for (const float value : *part) {
-      values_.push_back(
-          static_cast<int16_t>(std::lround(value * kFixedPoint)));
+      values_.push_back(static_cast<int16_t>(std::lround(value * kFixedPoint)));
     }
   }
   squared_ = Dot(values_, values_);

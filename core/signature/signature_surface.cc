@@ -50,9 +50,9 @@ void Measure(SignatureSurface& surface) {
 
 }  // namespace
 
-absl::StatusOr<SignatureSurface> PrepareSurface(
-    const TriangleMesh& repaired, const SignatureOptions& options,
-    const StopToken& stop) {
+absl::StatusOr<SignatureSurface> PrepareSurface(const TriangleMesh& repaired,
+                                                const SignatureOptions& options,
+                                                const StopToken& stop) {
   ARGMESH_ASSIGN_OR_RETURN(CanonicalMesh canonical, CanonicalizeMesh(repaired));
   SignatureSurface surface;
   surface.mesh = std::move(canonical.mesh);

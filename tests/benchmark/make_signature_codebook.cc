@@ -63,8 +63,7 @@ absl::StatusOr<Learned> LearnFrom(const TriangleMesh& mesh) {
 }
 
 // One below the other.
-PointRows Stack(const std::vector<Learned>& learned,
-                PointRows Learned::*part) {
+PointRows Stack(const std::vector<Learned>& learned, PointRows Learned::*part) {
   Eigen::Index rows = 0;
   for (const Learned& item : learned) rows += (item.*part).rows();
   PointRows all(rows, (learned.front().*part).cols());
