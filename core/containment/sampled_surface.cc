@@ -23,7 +23,9 @@ using Matrix7f = Eigen::Matrix<float, 7, 7>;
 Vector7f Jacobian(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction,
                   float scale) {
   Vector7f row;
-  row << arm.cross(direction), scale * direction, arm.dot(direction);
+  row.head<3>() = arm.cross(direction);
+  row.segment<3>(3) = scale * direction;
+  row[6] = arm.dot(direction);
   return row;
 }
 

@@ -37,12 +37,13 @@ absl::Status ReadFinite(ByteReader& reader, float* out, Eigen::Index count) {
 }  // namespace
 
 WindowDescriptor WindowCodebook::Project(const RawDescriptor& raw) const {
-  const Eigen::Matrix<float, static_cast<int>(kWindowDims), 1> projected =
-      projection.transpose() * (raw - mean);
+  const RawDescriptor difference = raw - mean;
   WindowDescriptor descriptor;
   for (size_t d = 0; d < kWindowDims; ++d) {
-    descriptor[d] = static_cast<int8_t>(std::lround(
-        std::clamp(projected[static_cast<Eigen::Index>(d)], -127.0F, 127.0F)));
+    const float x =
+        projection.col(static_cast<Eigen::Index>(d)).dot(difference);
+    descriptor[d] =
+        static_cast<int8_t>(std::lround(std::clamp(x, -127.0F, 127.0F)));
   }
   return descriptor;
 }

@@ -109,9 +109,9 @@ absl::StatusOr<RawWindowSet> ExtractRawWindows(const TriangleMesh& repaired,
                                                const StopToken& stop) {
   ARGMESH_RETURN_IF_ERROR(CheckMesh(repaired));
   const Eigen::VectorXd areas = ComputeFaceAreas(repaired);
-  if (!(areas.sum() > 0)) {
+  if (!(areas.sum() > 0 && std::isfinite(areas.sum()))) {
     return absl::FailedPreconditionError(
-        "windows need a face of positive area");
+        "windows need a face of positive, finite area");
   }
   RawWindowSet set;
   TriangleMesh mesh = ToUnitArea(repaired, areas, set.frame);

@@ -3,6 +3,8 @@
 // make_variants. Shapes at odd places of the first gallery's labels.tsv (1st,
 // 3rd ..) and queries cut from them are reported apart from the others: the
 // codebook was made from the former.
+#include <time.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -34,7 +36,7 @@ struct Options {
   int threads = 2;
   int every = 1;
   std::string only;  // query paths that begin so
-  bool rows = false;
+  int rows = 0;      // answers listed for each query; 0: none
 };
 
 struct Shape {
@@ -52,6 +54,14 @@ double Seconds(const std::function<void()>& body) {
   body();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
       .count();
+}
+
+// CPU time of this thread: what other work on the machine does not lengthen.
+double ThreadSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 struct Gallery {
@@ -137,9 +147,9 @@ absl::StatusOr<std::vector<Query>> ReadQueries(const std::string& folder) {
   return queries;
 }
 
-constexpr std::array<const char*, 14> kColumns = {
-    "NN",   "FT",      "source1", "top5",    "loaded", "accept", "other",
-    "tied", "generic", "Dq",      "extract", "index",  "exact",  "verify"};
+constexpr std::array<const char*, 15> kColumns = {
+    "NN",      "FT", "source1", "top5",  "loaded", "accept", "other", "tied",
+    "generic", "Dq", "extract", "index", "exact",  "verify", "cpu"};
 using Row = std::array<double, kColumns.size()>;
 
 // What one query came to.
@@ -186,9 +196,9 @@ Row Judge(const Gallery& gallery, const Query& query,
   return row;
 }
 
-// The first answer and the source's.
+// The first answers and the source's.
 void PrintRow(const Gallery& gallery, const Query& query,
-              const ContainmentRanking& ranking) {
+              const ContainmentRanking& ranking, size_t count) {
   std::printf("%s Dq %.2f common %.2f%s", query.path.c_str(),
               ranking.distinctiveness, ranking.common_share,
               ranking.generic ? " generic" : "");
@@ -196,7 +206,7 @@ void PrintRow(const Gallery& gallery, const Query& query,
     const ContainmentMatch& match = ranking.matches[i].match;
     const std::string& path =
         gallery.shapes[static_cast<size_t>(ranking.matches[i].slot)].path;
-    if (i > 0 && path != query.source) continue;
+    if (i >= count && path != query.source) continue;
     std::printf("; %zu %s S %.3f C %.3f F %.3f%s", i + 1, path.c_str(),
                 match.votes, match.coarse_cover, match.fine_cover,
                 match.flipped ? " flipped" : "");
@@ -216,6 +226,7 @@ absl::StatusOr<Outcome> RunQuery(const Gallery& gallery,
   ARGMESH_RETURN_IF_ERROR(windows.status());
   RankContainmentOptions rank = options.rank;
   rank.limit = static_cast<int>(gallery.shapes.size());
+  const double start = ThreadSeconds();
   ARGMESH_ASSIGN_OR_RETURN(
       const ContainmentRanking ranking,
       RankContainment(
@@ -225,6 +236,7 @@ absl::StatusOr<Outcome> RunQuery(const Gallery& gallery,
             return gallery.shapes[static_cast<size_t>(slot)].windows;
           },
           rank));
+  const double cpu = ThreadSeconds() - start;
   const auto source = std::find_if(
       gallery.shapes.begin(), gallery.shapes.end(),
       [&query](const Shape& shape) { return shape.path == query.source; });
@@ -234,8 +246,9 @@ absl::StatusOr<Outcome> RunQuery(const Gallery& gallery,
   outcome.row = Judge(gallery, query, ranking,
                       static_cast<size_t>(source - gallery.shapes.begin()));
   outcome.row[10] = extract;
-  if (options.rows) {
-    PrintRow(gallery, query, ranking);
+  outcome.row[14] = cpu;
+  if (options.rows > 0) {
+    PrintRow(gallery, query, ranking, static_cast<size_t>(options.rows));
   }
   return outcome;
 }
@@ -308,7 +321,8 @@ int main(int argc, char** argv) {
   app.add_option("--every", options.every, "Every n-th query only");
   app.add_option("--threads", options.threads);
   app.add_option("--only", options.only, "Queries whose path begins so");
-  app.add_flag("--rows", options.rows, "A line for each query");
+  app.add_option("--rows", options.rows,
+                 "A line for each query with so many answers");
   CLI11_PARSE(app, argc, argv);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const absl::Status status = argmesh::Run(options);

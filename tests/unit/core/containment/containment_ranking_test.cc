@@ -5,12 +5,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/containment/covered_surface.h"
 #include "core/containment/query_windows.h"
+#include "core/containment/target_windows.h"
+#include "core/containment/window_words.h"
 #include "core/geometry/area.h"
+#include "core/synthesis/mesh_cut.h"
 #include "core/synthesis/mesh_noise.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/test_meshes.h"
@@ -98,6 +103,31 @@ TEST(RankContainment, FindsAPieceTurnedInsideOut) {
   ASSERT_OK_AND_ASSIGN(const ContainmentRanking given,
                        Rank(query, {.try_flipped = false}));
   EXPECT_FALSE(given.matches[0].match.verified);
+}
+
+TEST(RankContainment, FindsAPieceOfAnOpenShapeStoredInsideOut) {
+  // The upper half of a teapot stands for a scan: open, wound the wrong way.
+  const TriangleMesh scan = CutHalf(MeshOf("teapot"), 2);
+  ASSERT_OK_AND_ASSIGN(TargetWindows windows,
+                       ExtractTargetWindows(TurnedInsideOut(scan)));
+  WindowIndex index = Gallery().index;
+  const int64_t teapot = Gallery().SlotOf("teapot");
+  index.Set(teapot, AssignWindowWords(windows));
+  const auto stored = std::make_shared<const TargetWindows>(std::move(windows));
+  const LoadWindows load = [&](int64_t slot)
+      -> absl::StatusOr<std::shared_ptr<const TargetWindows>> {
+    if (slot == teapot) return stored;
+    return Gallery().Loader()(slot);
+  };
+  const MovedPiece piece = CutAndMove(scan, 0, 6);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking,
+                       RankContainment(Query(piece.mesh), index, load));
+  EXPECT_EQ(ranking.matches[0].slot, teapot);
+  EXPECT_TRUE(ranking.matches[0].match.verified);
+  EXPECT_FALSE(ranking.matches[0].match.flipped);
+  EXPECT_LT(
+      Apart(ranking.matches[0].match.transform, piece.transform, piece.mesh),
+      0.02);
 }
 
 TEST(RankContainment, SaysOfAFeaturelessPatchThatItIsGeneric) {
