@@ -10,9 +10,9 @@
 
 namespace argmesh {
 
-// Flips the faces of every piece (connected across edges of two faces) that
-// has a border and encloses, so closed, a negative volume of more than a tenth
-// of a ball of its area. Flatter pieces stay as they are.
+// Makes every piece (connected across edges of two faces) consistent and flips
+// each that has a border and encloses, so closed, a negative volume of more
+// than a tenth of a ball of its area. Flatter pieces stay as they are.
 //
 // Cost     O(m). Thread-safe.
 void OrientOpenPieces(TriangleMesh& mesh);

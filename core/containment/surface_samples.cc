@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/random.h"
 #include "core/geometry/area.h"
 #include "core/mesh/mesh_edges.h"
@@ -58,14 +59,6 @@ std::vector<Edge> OpenEdges(const TriangleMesh& mesh) {
     i = end;
   }
   return open;
-}
-
-int32_t FindRoot(std::vector<int32_t>& parent, int32_t v) {
-  while (parent[Slot(v)] != v) {
-    parent[Slot(v)] = parent[Slot(parent[Slot(v)])];
-    v = parent[Slot(v)];
-  }
-  return v;
 }
 
 }  // namespace

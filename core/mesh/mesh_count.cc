@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
+
 namespace argmesh {
 namespace {
 
@@ -22,14 +24,6 @@ void CountBoundingBox(const TriangleMesh& mesh, MeshReport& report) {
     report.bounding_box_min[axis] = low[axis];
     report.bounding_box_max[axis] = high[axis];
   }
-}
-
-int32_t FindRoot(std::vector<int32_t>& parent, int32_t v) {
-  while (parent[Slot(v)] != v) {
-    parent[Slot(v)] = parent[Slot(parent[Slot(v)])];
-    v = parent[Slot(v)];
-  }
-  return v;
 }
 
 int64_t CountComponents(const TriangleMesh& mesh) {
