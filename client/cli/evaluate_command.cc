@@ -55,6 +55,7 @@ void AddEvaluateCommand(CLI::App& app, CommandSet& commands) {
       ->capture_default_str();
   command->add_flag("--exact", arguments->exact,
                     "Have every shape matched, whatever the first stage says");
+  AddRerankOption(command, arguments->rerank);
   command
       ->add_option("--scores", arguments->scores,
                    "Write the score of every pair as a table")

@@ -94,12 +94,15 @@ absl::StatusOr<v1::SearchShapesRequest> EvaluationJob::MakeRequest(
   request.set_parent(CollectionName(collection));
   if (query.file.empty()) {
     request.set_shape(ShapeName(collection, query.name));
+    // Reranked, a query's double would vouch for its neighbours.
+    request.set_exclude_query(arguments_.rerank);
   } else {
     ARGMESH_ASSIGN_OR_RETURN(*request.mutable_mesh(),
                              ReadQueryMesh(query.file));
   }
   request.set_mode(ModeOf(arguments_.match));
   *request.mutable_parameters() = ParametersOf(arguments_.match);
+  request.mutable_parameters()->set_rerank(arguments_.rerank);
   request.set_limit(limit_);
   request.set_exact(arguments_.exact);
   request.set_omit_component_pairs(true);

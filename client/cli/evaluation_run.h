@@ -27,6 +27,7 @@ struct EvaluateArguments {
   std::string scores;   // file for the raw scores; empty for none
   int jobs = 2;         // queries at a time
   bool exact = false;
+  bool rerank = false;  // global only
 };
 
 // Of one query, or the mean of many.

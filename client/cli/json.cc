@@ -207,6 +207,17 @@ Json ToJson(const v1::Match& match) {
                {"best_query_level", match.best_query_level()},
                {"best_target_level", match.best_target_level()},
                {"component_pairs", std::move(pairs)}};
+  if (match.handedness() != v1::HANDEDNESS_UNSPECIFIED) {
+    json["mirrored"] = match.handedness() == v1::HANDEDNESS_MIRRORED;
+  }
+  if (match.has_containment()) {
+    const v1::Containment& containment = match.containment();
+    json["containment"] = {{"verified", containment.verified()},
+                           {"tied", containment.tied()},
+                           {"window_score", containment.window_score()},
+                           {"surface_score", containment.surface_score()},
+                           {"transform", containment.transform()}};
+  }
   if (match.has_explanation()) {
     Json terms = Json::array();
     for (const v1::ScoreTerm& term : match.explanation().terms()) {

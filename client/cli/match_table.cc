@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/json.h"
 #include "client/cli/text_table.h"
 #include "client/resource_name.h"
@@ -26,6 +27,17 @@ std::vector<std::string> LevelNames(std::span<const v1::Match> matches) {
   return names;
 }
 
+// What there is to say of a match beside its numbers.
+std::string NoteOf(const v1::Match& match) {
+  std::vector<std::string> notes;
+  if (match.handedness() == v1::HANDEDNESS_MIRRORED) {
+    notes.emplace_back("mirrored");
+  }
+  if (match.containment().verified()) notes.emplace_back("contains the query");
+  if (match.containment().tied()) notes.emplace_back("tied");
+  return absl::StrJoin(notes, ", ");
+}
+
 std::string Percent(double share) { return FormatNumber(share * 100, 0) + "%"; }
 
 }  // namespace
@@ -34,7 +46,7 @@ std::string MatchTable(std::span<const v1::Match> matches) {
   const std::vector<std::string> levels = LevelNames(matches);
   std::vector<std::string> headers = {">#", "shape", "class", ">score"};
   for (const std::string& level : levels) headers.push_back(">" + level);
-  headers.insert(headers.end(), {"best level", ">query", ">target"});
+  headers.insert(headers.end(), {"best level", ">query", ">target", "note"});
   TextTable table(headers);
   for (size_t i = 0; i < matches.size(); ++i) {
     const v1::Match& match = matches[i];
@@ -53,6 +65,7 @@ std::string MatchTable(std::span<const v1::Match> matches) {
     row.push_back(match.best_level());
     row.push_back(Percent(match.query_coverage()));
     row.push_back(Percent(match.target_coverage()));
+    row.push_back(NoteOf(match));
     table.AddRow(std::move(row));
   }
   return table.ToString();

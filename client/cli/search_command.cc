@@ -12,12 +12,17 @@ namespace {
 
 constexpr char kDetails[] =
     R"(The query is a mesh file, or a stored shape by --shape; that one is left out of
-its own answer unless --include-self is given. "query" and "target" are the
-shares of each side's area that the matched components cover.
+its own answer unless --include-self is given; --region makes components of it
+the query. "query" and "target" are the shares of each side's area that match.
+
+A global search ranks by graphs and shape signatures, a partial one by windows
+of the surface, laid onto each candidate: it says where the query lies and
+whether that was verified. --ranking graph ranks by graphs alone.
 
 Examples:
   argmesh search --collection parts --mode global query.stl
   argmesh search --collection parts --mode partial --shape valve-7 --limit 20
+  argmesh search --collection parts --mode partial --shape valve-7 --region 3,4
   argmesh search --collection parts --mode global --explain --json query.off)";
 
 absl::StatusOr<int> Search(const Session& session,
@@ -34,6 +39,7 @@ absl::StatusOr<int> Search(const Session& session,
     }
     session.Print({{"matches", std::move(matches)},
                    {"stats", ToJson(response.stats())},
+                   {"query_generic", response.query_generic()},
                    {"truncated", response.truncated()}});
     return kExitOk;
   }
@@ -52,6 +58,10 @@ absl::StatusOr<int> Search(const Session& session,
     session.Note(absl::StrFormat(
         "%d shapes cannot be searched: damaged or of another version",
         stats.shapes_unusable()));
+  }
+  if (response.query_generic()) {
+    session.Note(
+        "the query has too few features to say which shape it is a part of");
   }
   if (response.truncated()) {
     session.Note("the answer was cut to fit in a message; use --limit");

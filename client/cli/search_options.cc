@@ -42,6 +42,18 @@ void AddMatchOptions(CLI::App* command, MatchArguments& arguments) {
                    "Levels that count, names with commas, as `argmesh graph` "
                    "shows them")
       ->type_name("NAMES");
+  command
+      ->add_option("--ranking", arguments.ranking,
+                   "fused: graphs with signatures or windows of the surface "
+                   "(the default); graph: the graphs alone")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"fused", "graph"}));
+}
+
+void AddRerankOption(CLI::App* command, bool& rerank) {
+  command->add_flag(
+      "--rerank", rerank,
+      "Order a global answer by the neighbourhoods of its shapes");
 }
 
 v1::SearchMode ModeOf(const MatchArguments& arguments) {
@@ -55,6 +67,11 @@ v1::MatchParameters ParametersOf(const MatchArguments& arguments) {
     parameters.set_attributes(v1::ATTRIBUTE_SET_FULL);
   } else if (arguments.attributes == "tuple") {
     parameters.set_attributes(v1::ATTRIBUTE_SET_TUPLE);
+  }
+  if (arguments.ranking == "fused") {
+    parameters.set_ranking(v1::RANKING_METHOD_FUSED);
+  } else if (arguments.ranking == "graph") {
+    parameters.set_ranking(v1::RANKING_METHOD_GRAPH);
   }
   for (const auto& name :
        absl::StrSplit(arguments.levels, ',', absl::SkipEmpty())) {
@@ -84,6 +101,14 @@ void AddSearchOptions(CLI::App* command, SearchArguments& arguments) {
                     "it is left out)");
   command->add_option("--shape", arguments.shape, "The query: a stored shape")
       ->type_name("ID");
+  command
+      ->add_option("--region", arguments.region,
+                   "Components of --shape that are the query, numbers with "
+                   "commas, as `argmesh graph` shows its finest level")
+      ->type_name("NODES")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber);
+  AddRerankOption(command, arguments.rerank);
   command->add_option("FILE", arguments.file, "The query: a mesh file")
       ->type_name("");
 }
@@ -92,6 +117,9 @@ absl::StatusOr<v1::SearchShapesRequest> MakeSearchRequest(
     const SearchArguments& arguments) {
   if (arguments.shape.empty() == arguments.file.empty()) {
     return UsageError("one query is needed: --shape ID or a mesh FILE");
+  }
+  if (!arguments.region.empty() && arguments.shape.empty()) {
+    return UsageError("--region needs --shape");
   }
   const std::string& collection = arguments.match.collection;
   v1::SearchShapesRequest request;
@@ -104,12 +132,15 @@ absl::StatusOr<v1::SearchShapesRequest> MakeSearchRequest(
     ARGMESH_ASSIGN_OR_RETURN(*request.mutable_mesh(),
                              ReadQueryMesh(arguments.file));
   }
+  request.mutable_region_node_ids()->Add(arguments.region.begin(),
+                                         arguments.region.end());
   request.set_mode(ModeOf(arguments.match));
   request.set_limit(arguments.limit);
   request.set_min_score(arguments.min_score);
   request.set_min_query_coverage(arguments.min_query_coverage);
   request.set_explain(arguments.explain);
   *request.mutable_parameters() = ParametersOf(arguments.match);
+  request.mutable_parameters()->set_rerank(arguments.rerank);
   return request;
 }
 

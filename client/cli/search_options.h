@@ -3,7 +3,9 @@
 #define ARGMESH_CLIENT_CLI_SEARCH_OPTIONS_H_
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "argmesh/v1/match.pb.h"
@@ -16,10 +18,14 @@ struct MatchArguments {
   std::string mode = "global";
   std::string attributes;  // "full", "tuple"; empty: the server's choice
   std::string levels;      // names with commas; empty: the server's choice
+  std::string ranking;     // "fused", "graph"; empty: the server's choice
 };
 
-// --collection, --mode, --attributes, --levels.
+// --collection, --mode, --attributes, --levels, --ranking.
 void AddMatchOptions(CLI::App* command, MatchArguments& arguments);
+
+// --rerank, of a global search.
+void AddRerankOption(CLI::App* command, bool& rerank);
 
 v1::SearchMode ModeOf(const MatchArguments& arguments);
 v1::MatchParameters ParametersOf(const MatchArguments& arguments);
@@ -29,6 +35,8 @@ struct SearchArguments {
   MatchArguments match;
   std::string shape;  // id; or
   std::string file;
+  std::vector<int32_t> region;  // components of the shape
+  bool rerank = false;
   int limit = 10;
   double min_score = 0;
   double min_query_coverage = 0;
@@ -37,7 +45,7 @@ struct SearchArguments {
 };
 
 // AddMatchOptions, --shape, FILE, --limit, --min-score, --min-coverage,
-// --include-self.
+// --include-self, --region, --rerank.
 void AddSearchOptions(CLI::App* command, SearchArguments& arguments);
 
 // Reads the query file. A usage error unless there is one query.

@@ -241,7 +241,7 @@ FaceLabels BuildFaceLabels(const SurfaceAbstraction& surface) {
 absl::StatusOr<ComputedGraph> ComputeShapeGraph(
     const TriangleMesh& mesh, const AbstractionOptions& options,
     const StopToken& stop) {
-  ARGMESH_ASSIGN_OR_RETURN(const SurfaceAbstraction surface,
+  ARGMESH_ASSIGN_OR_RETURN(SurfaceAbstraction surface,
                            AbstractSurface(mesh, options, stop));
   const absl::Time start = absl::Now();
   ComputedGraph computed;
@@ -249,6 +249,7 @@ absl::StatusOr<ComputedGraph> ComputeShapeGraph(
       computed.graph,
       BuildShapeGraph(surface, stop, options.decomposition.kind));
   computed.labels = BuildFaceLabels(surface);
+  computed.repaired = std::move(surface.repaired);
   computed.report = surface.report;
   computed.abstraction_times = surface.times;
   computed.attribute_time = absl::Now() - start;

@@ -18,7 +18,8 @@ namespace argmesh {
 
 struct ComputedGraph {
   ShapeGraph graph;
-  FaceLabels labels;  // one per face of the input mesh
+  FaceLabels labels;      // one per face of the input mesh
+  TriangleMesh repaired;  // the input after repair, in its own units
   MeshReport report;
   AbstractionTimes abstraction_times;
   absl::Duration attribute_time;

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -11,16 +12,16 @@ constexpr double kMinChirality = 0.05;
 // How much closer to one than to the other must be: share of the distance.
 constexpr double kClearly = 0.5;
 
-}  // namespace
+using Chirality = std::array<float, kChiralDims>;
 
-Handedness CompareHandedness(const ShapeSignature& a, const ShapeSignature& b) {
+Handedness Compare(const Chirality& a, const Chirality& b) {
   double same = 0;
   double mirrored = 0;
   double length_a = 0;
   double length_b = 0;
-  for (size_t i = 0; i < a.chirality.size(); ++i) {
-    const double x = static_cast<double>(a.chirality[i]);
-    const double y = static_cast<double>(b.chirality[i]);
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double x = static_cast<double>(a[i]);
+    const double y = static_cast<double>(b[i]);
     same += (x - y) * (x - y);
     mirrored += (x + y) * (x + y);
     length_a += x * x;
@@ -36,6 +37,17 @@ Handedness CompareHandedness(const ShapeSignature& a, const ShapeSignature& b) {
     return Handedness::kMirrored;
   }
   return Handedness::kUndecided;
+}
+
+}  // namespace
+
+Handedness CompareHandedness(const ShapeSignature& a, const ShapeSignature& b) {
+  return Compare(a.chirality, b.chirality);
+}
+
+Handedness CompareHandedness(const PackedSignature& a,
+                             const PackedSignature& b) {
+  return Compare(a.chirality(), b.chirality());
 }
 
 }  // namespace argmesh

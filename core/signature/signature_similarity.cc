@@ -40,7 +40,8 @@ double SignatureSimilarity(const ShapeSignature& a, const ShapeSignature& b) {
       2));
 }
 
-PackedSignature::PackedSignature(const ShapeSignature& signature) {
+PackedSignature::PackedSignature(const ShapeSignature& signature)
+    : chirality_(signature.chirality) {
   values_.reserve(kSignatureDims);
   for (const std::vector<float>* part : {&signature.point, &signature.view}) {
     for (const float value : *part) {

@@ -7,6 +7,7 @@
 #ifndef ARGMESH_CORE_SIGNATURE_SIGNATURE_SIMILARITY_H_
 #define ARGMESH_CORE_SIGNATURE_SIGNATURE_SIMILARITY_H_
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,9 +29,12 @@ class PackedSignature {
   friend double SignatureSimilarity(const PackedSignature& a,
                                     const PackedSignature& b);
 
+  const std::array<float, kChiralDims>& chirality() const { return chirality_; }
+
  private:
   std::vector<int16_t> values_;  // kSignatureDims
   int32_t squared_ = 0;          // length of values_, squared
+  std::array<float, kChiralDims> chirality_;
 };
 
 enum class Handedness {
@@ -42,6 +46,8 @@ enum class Handedness {
 // Whether b looks like a or like a's mirror image. Meant for shapes that are
 // alike: of others it says little. Symmetric in a and b. Thread-safe.
 Handedness CompareHandedness(const ShapeSignature& a, const ShapeSignature& b);
+Handedness CompareHandedness(const PackedSignature& a,
+                             const PackedSignature& b);
 
 }  // namespace argmesh
 

@@ -10,28 +10,38 @@ CollectionIndex::CollectionIndex(const CollectionRecord& collection)
       collection_uid_(collection.uid),
       settings_(collection.settings) {}
 
-GalleryBlock& CollectionIndex::MutableBlock(size_t position) {
-  Block& block = blocks_[position / kGalleryBlockSize];
+size_t CollectionIndex::TakeSlot(const std::string& id) {
+  const auto it = slots_.find(id);
+  if (it != slots_.end()) return it->second;
+  size_t slot = slots_.size();  // every slot below is taken
+  if (!free_slots_.empty()) {
+    slot = free_slots_.back();
+    free_slots_.pop_back();
+  }
+  slots_[id] = slot;
+  return slot;
+}
+
+GalleryEntryPtr& CollectionIndex::MutableEntry(size_t slot) {
+  const size_t at = slot / kGalleryBlockSize;
+  if (at == blocks_.size()) {
+    blocks_.push_back({std::make_shared<GalleryBlock>(), false});
+  }
+  Block& block = blocks_[at];
   if (block.published) {
     block.entries = std::make_shared<GalleryBlock>(*block.entries);
     block.published = false;
   }
-  return *block.entries;
+  const size_t place = slot % kGalleryBlockSize;
+  if (place == block.entries->size()) block.entries->emplace_back();
+  return (*block.entries)[place];
 }
 
-void CollectionIndex::Put(GalleryEntryPtr entry) {
-  const std::string& id = entry->record.id;
-  unusable_.erase(id);
-  const auto [it, added] = positions_.try_emplace(id, positions_.size());
-  const size_t position = it->second;
-  if (!added) {
-    MutableBlock(position)[position % kGalleryBlockSize] = std::move(entry);
-    return;
-  }
-  if (position % kGalleryBlockSize == 0) {
-    blocks_.push_back({std::make_shared<GalleryBlock>(), false});
-  }
-  MutableBlock(position).push_back(std::move(entry));
+void CollectionIndex::Put(IndexedShape shape) {
+  unusable_.erase(shape.entry->record.id);
+  const size_t slot = TakeSlot(shape.entry->record.id);
+  windows_.Set(static_cast<int64_t>(slot), shape.words);
+  MutableEntry(slot) = std::move(shape.entry);
 }
 
 void CollectionIndex::PutUnusable(const std::string& id, Unusable why) {
@@ -45,18 +55,13 @@ void CollectionIndex::Remove(const std::string& id) {
 }
 
 void CollectionIndex::RemoveEntry(const std::string& id) {
-  const auto it = positions_.find(id);
-  if (it == positions_.end()) return;
-  const size_t position = it->second;
-  const size_t last = positions_.size() - 1;
-  GalleryEntryPtr moved = MutableBlock(last).back();
-  MutableBlock(last).pop_back();
-  if (position != last) {
-    positions_[moved->record.id] = position;
-    MutableBlock(position)[position % kGalleryBlockSize] = std::move(moved);
-  }
-  if (last % kGalleryBlockSize == 0) blocks_.pop_back();
-  positions_.erase(it);
+  const auto it = slots_.find(id);
+  if (it == slots_.end()) return;
+  const size_t slot = it->second;
+  MutableEntry(slot) = nullptr;
+  windows_.Erase(static_cast<int64_t>(slot));
+  free_slots_.push_back(slot);
+  slots_.erase(it);
 }
 
 void CollectionIndex::Publish(int64_t generation) {
@@ -65,7 +70,7 @@ void CollectionIndex::Publish(int64_t generation) {
   snapshot->collection_uid = collection_uid_;
   snapshot->settings = settings_;
   snapshot->generation = generation;
-  snapshot->size = static_cast<int64_t>(positions_.size());
+  snapshot->size = static_cast<int64_t>(slots_.size());
   snapshot->damaged_shapes = std::count_if(
       unusable_.begin(), unusable_.end(),
       [](const auto& item) { return item.second == Unusable::kDamaged; });
@@ -76,6 +81,7 @@ void CollectionIndex::Publish(int64_t generation) {
     block.published = true;
     snapshot->blocks.push_back(block.entries);
   }
+  snapshot->windows = windows_;
   const std::lock_guard lock(mutex_);
   snapshot_ = std::move(snapshot);
 }

@@ -1,9 +1,10 @@
 // The shapes of one collection in memory, changed in place and published as
 // immutable snapshots.
 //
-// Put, PutUnusable, Remove and Publish belong to one thread at a time;
-// snapshot() is thread-safe. Cost of a change: one block and, at Publish, one
-// pointer for each block.
+// A shape keeps its slot while it is there; a slot that came free is used
+// again. Put, PutUnusable, Remove and Publish belong to one thread at a time;
+// snapshot() is thread-safe. Cost of a change: one block of
+// entries, one of windows and, at Publish, two pointers for each block.
 #ifndef ARGMESH_SERVER_ENGINE_COLLECTION_INDEX_H_
 #define ARGMESH_SERVER_ENGINE_COLLECTION_INDEX_H_
 
@@ -27,7 +28,7 @@ class CollectionIndex {
   explicit CollectionIndex(const CollectionRecord& collection);
 
   // Takes the place of whatever the id stood for before.
-  void Put(GalleryEntryPtr entry);
+  void Put(IndexedShape shape);
   void PutUnusable(const std::string& id, Unusable why);
   void Remove(const std::string& id);
 
@@ -43,14 +44,17 @@ class CollectionIndex {
     bool published = false;  // shared with a snapshot: copied before a change
   };
 
-  GalleryBlock& MutableBlock(size_t position);
+  size_t TakeSlot(const std::string& id);
+  GalleryEntryPtr& MutableEntry(size_t slot);
   void RemoveEntry(const std::string& id);
 
   const std::string collection_;
   const std::string collection_uid_;
   const CollectionSettings settings_;
   std::vector<Block> blocks_;
-  std::unordered_map<std::string, size_t> positions_;  // over all blocks
+  std::unordered_map<std::string, size_t> slots_;  // of the ids
+  std::vector<size_t> free_slots_;
+  WindowIndex windows_;
   std::unordered_map<std::string, Unusable> unusable_;
 
   mutable std::mutex mutex_;

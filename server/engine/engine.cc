@@ -37,7 +37,7 @@ Engine::Parts::Parts(const EngineOptions& engine_options,
       pool(options.pool),
       gallery(*catalog, pool),
       ingest(options, *catalog, *meshes, gallery),
-      search(options, *catalog, gallery, pool) {}
+      search(options, *catalog, *meshes, gallery, pool) {}
 
 absl::Status Engine::Parts::CheckOpen() const {
   if (!closed) return absl::OkStatus();
@@ -105,10 +105,7 @@ absl::StatusOr<std::unique_ptr<MeshReader>> Engine::OpenMesh(
     const ShapeRef& shape) const {
   ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record, GetShape(shape));
   if (record.mesh_stored) return parts_->meshes->Open(record.sha256);
-  return MakeError(
-      ErrorReason::kMeshNotStored,
-      absl::StrFormat("collection %s keeps no meshes", shape.collection),
-      {{"collection", shape.collection}});
+  return MeshNotStoredError(record);
 }
 
 absl::StatusOr<ShapeGraphAnswer> Engine::GetGraph(const ShapeRef& shape,

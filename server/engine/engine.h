@@ -79,8 +79,8 @@ class Engine {
                                             bool with_labels) const;
 
   // --- search --------------------------------------------------------------
-  // Every shape of the collection is matched. kIndexLoading,
-  // kGenerationNotReached, kMesh..., kGraphVersionMismatch, kGraphInvalid.
+  // kIndexLoading, kGenerationNotReached, kMesh..., kGraphVersionMismatch,
+  // kGraphInvalid, kNodeNotFound.
   absl::StatusOr<SearchAnswer> Search(const SearchQuery& query,
                                       const StopToken& stop = {}) const;
   absl::StatusOr<ComparedShapes> Compare(const CompareQuery& query,

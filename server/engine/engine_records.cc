@@ -150,7 +150,7 @@ absl::StatusOr<ShapeRecord> Engine::UpdateShape(ShapePatch patch) {
   ARGMESH_ASSIGN_OR_RETURN(ShapeWritten written,
                            parts_->catalog->UpdateShape(patch));
   parts_->gallery.Follow(patch.collection, written.collection_uid,
-                         written.record.generation, nullptr);
+                         written.record.generation, std::nullopt);
   return std::move(written.record);
 }
 
@@ -169,7 +169,7 @@ absl::StatusOr<int64_t> Engine::DeleteShape(const ShapeRemoval& removal) {
   ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
                            parts_->catalog->DeleteShape(request));
   parts_->gallery.Follow(request.collection, deleted.collection_uid,
-                         deleted.generation, nullptr);
+                         deleted.generation, std::nullopt);
   parts_->ingest.RemoveMeshes(deleted.unreferenced);
   return deleted.generation;
 }

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "core/containment/window_codec.h"
 #include "core/graph/graph_codec.h"
+#include "core/signature/signature_codec.h"
 #include "server/engine/catalog_errors.h"
 #include "server/engine/collection_index.h"
 #include "server/engine/error_reason.h"
@@ -18,24 +20,32 @@ constexpr int kScanPage = 256;
 constexpr int kChangePage = 256;
 constexpr absl::Duration kLoadRetryDelay = absl::Seconds(1);
 
-// Null for a graph of another version.
-absl::StatusOr<GalleryEntryPtr> EntryOf(const ScannedGraph& scanned) {
+// kFailedPrecondition for what another version computed.
+absl::StatusOr<IndexedShape> ParseScanned(const ScannedGraph& scanned) {
   ARGMESH_RETURN_IF_ERROR(scanned.status);
-  if (scanned.graph_version != kShapeGraphVersion) return GalleryEntryPtr();
+  if (scanned.graph_version != kShapeGraphVersion ||
+      scanned.signature.empty() || scanned.window_words.empty()) {
+    return absl::FailedPreconditionError("computed by another version");
+  }
   ARGMESH_ASSIGN_OR_RETURN(const ShapeGraph graph,
                            ParseShapeGraph(scanned.graph));
-  return std::make_shared<const GalleryEntry>(
-      GalleryEntry{scanned.record, MatchableGraph(graph)});
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeSignature signature,
+                           DecodeSignature(scanned.signature));
+  IndexedShape shape;
+  ARGMESH_ASSIGN_OR_RETURN(shape.words, ParseWindowWords(scanned.window_words));
+  shape.entry = std::make_shared<const GalleryEntry>(GalleryEntry{
+      scanned.record, MatchableGraph(graph), PackedSignature(signature)});
+  return shape;
 }
 
-void PutResult(CollectionIndex& index, const std::string& id,
-               absl::StatusOr<GalleryEntryPtr> entry) {
-  if (!entry.ok()) {
-    index.PutUnusable(id, CollectionIndex::Unusable::kDamaged);
-  } else if (*entry == nullptr) {
+void PutParsed(CollectionIndex& index, const std::string& id,
+               absl::StatusOr<IndexedShape> shape) {
+  if (shape.ok()) {
+    index.Put(*std::move(shape));
+  } else if (absl::IsFailedPrecondition(shape.status())) {
     index.PutUnusable(id, CollectionIndex::Unusable::kOutdated);
   } else {
-    index.Put(*std::move(entry));
+    index.PutUnusable(id, CollectionIndex::Unusable::kDamaged);
   }
 }
 
@@ -58,7 +68,7 @@ class Gallery::Slot {
   bool following = false;    // Load has read everything: changes are applied
   int64_t known = 0;         // highest generation seen committed
   absl::Status error;        // why `applied` stays behind `known`
-  std::map<int64_t, GalleryEntryPtr> entries;  // written, not applied yet
+  std::map<int64_t, IndexedShape> shapes;  // written, not applied yet
 };
 
 Gallery::Gallery(const Catalog& catalog, ComputePool& pool)
@@ -139,14 +149,14 @@ absl::Status Gallery::LoadSlot(Slot& slot, const StopToken& stop) {
                              catalog_.ScanGraphs(slot.uid, after, kScanPage));
     if (page.empty()) break;
     after = page.back().record.id;
-    std::vector<absl::StatusOr<GalleryEntryPtr>> entries(page.size());
+    std::vector<absl::StatusOr<IndexedShape>> shapes(page.size());
     pool_.ParallelFor(WorkClass::kSearch, static_cast<int64_t>(page.size()),
                       [&](int64_t i) {
                         const auto at = static_cast<size_t>(i);
-                        entries[at] = EntryOf(page[at]);
+                        shapes[at] = ParseScanned(page[at]);
                       });
     for (size_t i = 0; i < page.size(); ++i) {
-      PutResult(slot.index, page[i].record.id, std::move(entries[i]));
+      PutParsed(slot.index, page[i].record.id, std::move(shapes[i]));
     }
   }
   {
@@ -163,14 +173,14 @@ absl::Status Gallery::LoadSlot(Slot& slot, const StopToken& stop) {
 
 void Gallery::Follow(std::string_view collection,
                      std::string_view collection_uid, int64_t generation,
-                     GalleryEntryPtr entry) {
+                     std::optional<IndexedShape> shape) {
   const SlotPtr slot = FindSlot(collection);
   if (slot == nullptr || slot->uid != collection_uid) return;
   {
     const std::lock_guard lock(slot->mutex);
     slot->known = std::max(slot->known, generation);
     if (!slot->following) return;  // Load reads it
-    if (entry != nullptr) slot->entries[generation] = std::move(entry);
+    if (shape) slot->shapes[generation] = *std::move(shape);
   }
   CatchUp(*slot);
 }
@@ -190,8 +200,8 @@ absl::Status Gallery::ApplyChanges(Slot& slot) const {
   while (true) {
     {
       const std::lock_guard lock(slot.mutex);
-      slot.entries.erase(slot.entries.begin(),
-                         slot.entries.upper_bound(slot.applied));
+      slot.shapes.erase(slot.shapes.begin(),
+                        slot.shapes.upper_bound(slot.applied));
       if (slot.known <= slot.applied) return absl::OkStatus();
     }
     ARGMESH_ASSIGN_OR_RETURN(
@@ -214,14 +224,14 @@ absl::Status Gallery::ApplyChange(Slot& slot, const ShapeChange& change) const {
     slot.index.Remove(change.id);
     return absl::OkStatus();
   }
-  GalleryEntryPtr written;
+  std::optional<IndexedShape> written;
   {
     const std::lock_guard lock(slot.mutex);
-    const auto it = slot.entries.find(change.generation);
-    if (it != slot.entries.end()) written = it->second;
+    const auto it = slot.shapes.find(change.generation);
+    if (it != slot.shapes.end()) written = it->second;
   }
-  if (written != nullptr) {
-    slot.index.Put(std::move(written));
+  if (written) {
+    slot.index.Put(*std::move(written));
     return absl::OkStatus();
   }
   const absl::StatusOr<ScannedGraph> stored =
@@ -231,7 +241,7 @@ absl::Status Gallery::ApplyChange(Slot& slot, const ShapeChange& change) const {
     return absl::OkStatus();
   }
   ARGMESH_RETURN_IF_ERROR(stored.status());
-  PutResult(slot.index, change.id, EntryOf(*stored));
+  PutParsed(slot.index, change.id, ParseScanned(*stored));
   return absl::OkStatus();
 }
 

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,10 +45,10 @@ class Gallery {
   void Add(const CollectionRecord& collection);
   void Remove(std::string_view collection_uid);
 
-  // A write of `generation` was committed. `entry` is what it wrote, where
+  // A write of `generation` was committed. `shape` is what it wrote, where
   // that is known; it saves reading it back.
   void Follow(std::string_view collection, std::string_view collection_uid,
-              int64_t generation, GalleryEntryPtr entry);
+              int64_t generation, std::optional<IndexedShape> shape);
 
   // kIndexLoading, kCollectionNotFound, kGenerationNotReached, or why the
   // collection could not be read.

@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/containment/window_index.h"
+#include "core/containment/window_words.h"
 #include "core/matching/match.h"
+#include "core/signature/signature_similarity.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/shape_record.h"
 
@@ -18,10 +21,18 @@ namespace argmesh {
 struct GalleryEntry {
   ShapeRecord record;
   MatchableGraph graph;
+  PackedSignature signature;
 };
 using GalleryEntryPtr = std::shared_ptr<const GalleryEntry>;
 
-// At most kGalleryBlockSize entries; a change copies one block, not all.
+// What a shape adds to the index of its collection.
+struct IndexedShape {
+  GalleryEntryPtr entry;
+  WindowWords words;
+};
+
+// At most kGalleryBlockSize entries, null where a shape went; a change copies
+// one block, not all.
 using GalleryBlock = std::vector<GalleryEntryPtr>;
 inline constexpr size_t kGalleryBlockSize = 128;
 
@@ -33,8 +44,16 @@ struct GallerySnapshot {
   int64_t size = 0;             // entries
   int64_t damaged_shapes = 0;   // not among the entries
   int64_t outdated_shapes = 0;  // not among the entries
-  // Every block but the last is full. The order has no meaning.
+  // A shape keeps its slot, block * kGalleryBlockSize + place, while it is
+  // there. The order has no meaning.
   std::vector<std::shared_ptr<const GalleryBlock>> blocks;
+  WindowIndex windows;  // by slot
+
+  // Null when no shape has the slot.
+  const GalleryEntryPtr& entry(int64_t slot) const {
+    const auto at = static_cast<size_t>(slot);
+    return (*blocks[at / kGalleryBlockSize])[at % kGalleryBlockSize];
+  }
 };
 using GallerySnapshotPtr = std::shared_ptr<const GallerySnapshot>;
 

@@ -12,6 +12,7 @@
 #include "server/engine/mesh_upload.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/request_stamp.h"
+#include "server/engine/surface_description.h"
 #include "server/engine/uid.h"
 
 namespace argmesh {
@@ -58,6 +59,12 @@ struct Ingest::Source {
   std::string bytes;
   std::unique_ptr<StagedMesh> staged;  // null: `bytes` came with the call
   Sha256Digest sha256{};
+};
+
+struct Ingest::Searchable {
+  MatchableGraph graph;
+  PackedSignature signature;
+  WindowWords words;
 };
 
 Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
@@ -108,7 +115,7 @@ absl::StatusOr<std::optional<AddedShape>> Ingest::FindStored(
                            catalog_.FindPutShape(request));
   if (answered) {
     gallery_.Follow(shape.collection, answered->collection_uid,
-                    answered->record.generation, nullptr);
+                    answered->record.generation, std::nullopt);
     return AddedShape{std::move(answered->record), true};
   }
   if (shape.if_exists == IfExists::kReplace) return std::nullopt;
@@ -134,26 +141,29 @@ absl::StatusOr<MeshPin> Ingest::PublishMesh(Source& source) {
 }
 
 absl::StatusOr<AddedShape> Ingest::Commit(const ShapePut& put,
-                                          MatchableGraph graph) {
+                                          Searchable searchable) {
   ARGMESH_ASSIGN_OR_RETURN(ShapeWritten written, catalog_.PutShape(put));
-  GalleryEntryPtr entry;
+  std::optional<IndexedShape> shape;
   if (written.written) {
-    entry = std::make_shared<const GalleryEntry>(
-        GalleryEntry{written.record, std::move(graph)});
+    shape.emplace();
+    shape->entry = std::make_shared<const GalleryEntry>(
+        GalleryEntry{written.record, std::move(searchable.graph),
+                     std::move(searchable.signature)});
+    shape->words = std::move(searchable.words);
   }
   gallery_.Follow(put.record.collection, written.collection_uid,
-                  written.record.generation, std::move(entry));
+                  written.record.generation, std::move(shape));
   RemoveMeshes(written.unreferenced);
   return AddedShape{std::move(written.record), !written.written};
 }
 
 absl::StatusOr<AddedShape> Ingest::Store(Source& source, const ShapePut& put,
-                                         MatchableGraph graph) {
-  if (!put.record.mesh_stored) return Commit(put, std::move(graph));
+                                         Searchable searchable) {
+  if (!put.record.mesh_stored) return Commit(put, std::move(searchable));
   absl::StatusOr<AddedShape> added;
   {
     ARGMESH_ASSIGN_OR_RETURN(const MeshPin pin, PublishMesh(source));
-    added = Commit(put, std::move(graph));
+    added = Commit(put, std::move(searchable));
   }
   if (!added.ok() || added->already_stored) {
     RemoveMeshes({source.sha256});  // unless another shape has it
@@ -180,12 +190,16 @@ absl::StatusOr<AddedShape> Ingest::Analyze(const NewShape& shape,
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(analyzed.computed.graph);
   put.labels = SerializeFaceLabels(analyzed.computed.labels);
+  ARGMESH_ASSIGN_OR_RETURN(SurfaceDescription surface,
+                           DescribeSurface(analyzed.computed.repaired, stop));
+  put.descriptors = std::move(surface.bytes);
   put.if_exists = shape.if_exists;
   put.etag = shape.etag;
   put.request = std::move(request);
-  MatchableGraph graph(analyzed.computed.graph);
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  return Store(source, put, std::move(graph));
+  return Store(source, put,
+               {MatchableGraph(analyzed.computed.graph),
+                PackedSignature(surface.signature), std::move(surface.words)});
 }
 
 absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,

@@ -39,7 +39,8 @@ class Ingest {
   MeshStore::IsReferenced is_referenced() const;
 
  private:
-  struct Source;  // bytes and what is known of them
+  struct Source;      // bytes and what is known of them
+  struct Searchable;  // what the index takes of a shape
 
   absl::StatusOr<Source> Open(const NewShape& shape, MeshSource mesh) const;
   absl::StatusOr<std::optional<AddedShape>> FindStored(
@@ -51,8 +52,8 @@ class Ingest {
                                      Source& source, RequestStamp request,
                                      const StopToken& stop);
   absl::StatusOr<AddedShape> Store(Source& source, const ShapePut& put,
-                                   MatchableGraph graph);
-  absl::StatusOr<AddedShape> Commit(const ShapePut& put, MatchableGraph graph);
+                                   Searchable searchable);
+  absl::StatusOr<AddedShape> Commit(const ShapePut& put, Searchable searchable);
 
   const EngineOptions& options_;
   Catalog& catalog_;

@@ -89,6 +89,22 @@ absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits) {
                     {"limit", absl::StrFormat("%d", limits.max_bytes)}});
 }
 
+absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
+    const TriangleMesh& mesh, const CollectionSettings& settings,
+    const EngineOptions& options, const StopToken& stop) {
+  if (mesh.num_vertices() == 0 || mesh.num_faces() == 0) {
+    return MakeError(ErrorReason::kMeshEmpty,
+                     absl::StrFormat("the mesh has %d vertices and %d faces",
+                                     mesh.num_vertices(), mesh.num_faces()));
+  }
+  const StopToken capped =
+      stop.WithDeadline(absl::Now() + options.max_compute_time);
+  absl::StatusOr<ComputedGraph> computed =
+      ComputeShapeGraph(mesh, AbstractionOptionsOf(settings), capped);
+  if (computed.ok()) return computed;
+  return ComputeError(computed.status(), stop, options.max_compute_time);
+}
+
 absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
                                          MeshFormat format,
                                          const CollectionSettings& settings,
@@ -97,25 +113,14 @@ absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
   ARGMESH_RETURN_IF_ERROR(
       CheckMeshSize(static_cast<int64_t>(bytes.size()), options.mesh_limits));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  const StopToken capped =
-      stop.WithDeadline(absl::Now() + options.max_compute_time);
   absl::StatusOr<ParsedMesh> parsed =
       ParseMesh(bytes, format, options.mesh_limits);
   if (!parsed.ok()) return ParseError(parsed.status(), format);
-  if (parsed->mesh.num_vertices() == 0 || parsed->mesh.num_faces() == 0) {
-    return MakeError(
-        ErrorReason::kMeshEmpty,
-        absl::StrFormat("the mesh has %d vertices and %d faces",
-                        parsed->mesh.num_vertices(), parsed->mesh.num_faces()));
-  }
   AnalyzedMesh analyzed;
   analyzed.format = parsed->format;
-  absl::StatusOr<ComputedGraph> computed =
-      ComputeShapeGraph(parsed->mesh, AbstractionOptionsOf(settings), capped);
-  if (!computed.ok()) {
-    return ComputeError(computed.status(), stop, options.max_compute_time);
-  }
-  analyzed.computed = *std::move(computed);
+  ARGMESH_ASSIGN_OR_RETURN(
+      analyzed.computed,
+      AnalyzeParsedMesh(parsed->mesh, settings, options, stop));
   return analyzed;
 }
 

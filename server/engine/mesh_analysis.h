@@ -21,6 +21,8 @@ struct AnalyzedMesh {
   MeshFormat format = MeshFormat::kUnknown;
 };
 
+// Parses, repairs, abstracts.
+//
 // Fails    MESH_MALFORMED (metadata `line` or `offset` where known),
 //          MESH_FORMAT_UNKNOWN, MESH_EMPTY, MESH_DEGENERATE,
 //          MESH_TOO_LARGE (over a limit, or over options.max_compute_time),
@@ -30,6 +32,11 @@ absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
                                          const CollectionSettings& settings,
                                          const EngineOptions& options,
                                          const StopToken& stop);
+
+// From the mesh on, as AnalyzeMesh.
+absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
+    const TriangleMesh& mesh, const CollectionSettings& settings,
+    const EngineOptions& options, const StopToken& stop);
 
 // MESH_TOO_LARGE from the size alone.
 absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits);

@@ -104,6 +104,14 @@ absl::Status CheckPatch(const ShapePatch& patch) {
 absl::Status CheckSearchQuery(const SearchQuery& query) {
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
   ARGMESH_RETURN_IF_ERROR(CheckRange("limit", query.limit, 1, kMaxSearchLimit));
+  ARGMESH_RETURN_IF_ERROR(
+      CheckRange("candidates", query.candidates, 0, kMaxCandidates));
+  if (!query.region_nodes.empty() &&
+      !std::holds_alternative<ShapeRef>(query.query)) {
+    return MakeError(ErrorReason::kFieldInvalid,
+                     "region_node_ids: needs a stored shape as the query",
+                     {{"field", "region_node_ids"}});
+  }
   ARGMESH_RETURN_IF_ERROR(CheckRange("min_score", query.min_score, 0, 1));
   return CheckRange("min_query_coverage", query.min_query_coverage, 0, 1);
 }

@@ -21,6 +21,7 @@ inline constexpr size_t kMaxMetadataEntries = 64;
 inline constexpr size_t kMaxMetadataKeyBytes = 64;
 inline constexpr size_t kMaxMetadataValueBytes = 1024;
 inline constexpr int kMaxSearchLimit = 1000;
+inline constexpr int kMaxCandidates = 1'000'000;
 
 // `field` names it in the error.
 absl::Status CheckId(std::string_view field, std::string_view id);

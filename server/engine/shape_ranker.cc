@@ -1,13 +1,17 @@
 #include "server/engine/shape_ranker.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "core/matching/fused_score.h"
+#include "core/signature/signature_similarity.h"
 
 namespace argmesh {
 namespace {
+
+// Graphs that are matched by default: .1 s of one core.
+constexpr int kDefaultCandidates = 1000;
 
 bool RanksBefore(const RankedShape& a, const RankedShape& b) {
   if (a.score != b.score) return a.score > b.score;
@@ -35,49 +39,91 @@ MatchOptions ScanOptions(const RankQuery& query) {
   return options;
 }
 
-class ExactRanker : public ShapeRanker {
+// The entries a query may find, in the order of their slots.
+std::vector<RankedShape> ListShapes(const GallerySnapshot& gallery,
+                                    const std::string& exclude_id) {
+  std::vector<RankedShape> shapes;
+  shapes.reserve(static_cast<size_t>(gallery.size));
+  for (const auto& block : gallery.blocks) {
+    for (const GalleryEntryPtr& entry : *block) {
+      if (entry == nullptr || entry->record.id == exclude_id) continue;
+      shapes.push_back({.entry = entry});
+    }
+  }
+  return shapes;
+}
+
+class TwoStageRanker : public ShapeRanker {
  public:
-  explicit ExactRanker(ComputePool& pool) : pool_(pool) {}
+  explicit TwoStageRanker(ComputePool& pool) : pool_(pool) {}
 
   absl::StatusOr<Ranking> Rank(const GallerySnapshot& gallery,
                                const RankQuery& query,
                                const StopToken& stop) const override {
-    std::vector<Ranking> parts(gallery.blocks.size());
-    pool_.ParallelFor(WorkClass::kSearch,
-                      static_cast<int64_t>(gallery.blocks.size()),
-                      [&](int64_t b) {
-                        const auto at = static_cast<size_t>(b);
-                        RankBlock(*gallery.blocks[at], query, stop, parts[at]);
-                      });
-    ARGMESH_RETURN_IF_ERROR(stop.Check());
     Ranking ranking;
-    for (Ranking& part : parts) {
-      std::move(part.shapes.begin(), part.shapes.end(),
-                std::back_inserter(ranking.shapes));
-      ranking.matched += part.matched;
+    ranking.shapes = ListShapes(gallery, query.exclude_id);
+    ranking.considered = static_cast<int64_t>(ranking.shapes.size());
+    if (query.signature != nullptr) {
+      ForEach(ranking.shapes, stop, [&](RankedShape& shape) {
+        shape.signature =
+            SignatureSimilarity(*query.signature, shape.entry->signature);
+        shape.score = shape.signature;
+      });
+      ARGMESH_RETURN_IF_ERROR(stop.Check());
+      KeepCandidates(query, ranking);
     }
+    ranking.matched = static_cast<int64_t>(ranking.shapes.size());
+    MatchAll(query, stop, ranking.shapes);
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    std::erase_if(ranking.shapes, [&](const RankedShape& shape) {
+      return shape.score < query.min_score;
+    });
     KeepBest(ranking.shapes, static_cast<size_t>(query.limit));
-    ranking.considered = ranking.matched;
     return ranking;
   }
 
  private:
-  // Incomplete once `stop` says so, which Rank tells.
-  static void RankBlock(const GalleryBlock& block, const RankQuery& query,
-                        const StopToken& stop, Ranking& part) {
-    const MatchOptions options = ScanOptions(query);
-    for (const GalleryEntryPtr& entry : block) {
-      if (entry->record.id == query.exclude_id) continue;
-      if (!stop.Check().ok()) return;
-      const MatchResult match =
-          MatchGraphs(query.mode, query.graph, entry->graph, options);
-      ++part.matched;
-      if (match.score >= query.min_score &&
-          match.query_coverage >= query.min_query_coverage) {
-        part.shapes.push_back({entry, match.score});
-      }
+  // Stops early once `stop` says so, which the caller checks.
+  template <typename Body>
+  void ForEach(std::vector<RankedShape>& shapes, const StopToken& stop,
+               const Body& body) const {
+    const size_t count =
+        (shapes.size() + kGalleryBlockSize - 1) / kGalleryBlockSize;
+    pool_.ParallelFor(
+        WorkClass::kSearch, static_cast<int64_t>(count), [&](int64_t b) {
+          const size_t begin = static_cast<size_t>(b) * kGalleryBlockSize;
+          const size_t end = std::min(begin + kGalleryBlockSize, shapes.size());
+          for (size_t i = begin; i < end; ++i) {
+            if (!stop.Check().ok()) return;
+            body(shapes[i]);
+          }
+        });
+  }
+
+  static void KeepCandidates(const RankQuery& query, Ranking& ranking) {
+    const int wanted =
+        query.candidates > 0 ? query.candidates : kDefaultCandidates;
+    const auto candidates = static_cast<size_t>(std::max(wanted, query.limit));
+    if (query.exact || ranking.shapes.size() <= candidates) return;
+    KeepBest(ranking.shapes, candidates);
+    for (size_t i = 0; i < ranking.shapes.size(); ++i) {
+      ranking.shapes[i].candidate_rank = static_cast<int32_t>(i) + 1;
     }
-    KeepBest(part.shapes, static_cast<size_t>(query.limit));
+    ranking.exhaustive = false;
+  }
+
+  // A shape that covers too little of the query scores below everything.
+  void MatchAll(const RankQuery& query, const StopToken& stop,
+                std::vector<RankedShape>& shapes) const {
+    const MatchOptions options = ScanOptions(query);
+    ForEach(shapes, stop, [&](RankedShape& shape) {
+      const MatchResult match =
+          MatchGraphs(query.mode, query.graph, shape.entry->graph, options);
+      shape.score = query.signature == nullptr
+                        ? match.score
+                        : FusedScore(match.score, shape.signature);
+      if (match.query_coverage < query.min_query_coverage) shape.score = -1;
+    });
   }
 
   ComputePool& pool_;
@@ -92,8 +138,8 @@ MatchResult MatchGraphs(MatchMode mode, const MatchableGraph& query,
                                     : MatchPartial(query, target, options);
 }
 
-std::unique_ptr<ShapeRanker> MakeExactRanker(ComputePool& pool) {
-  return std::make_unique<ExactRanker>(pool);
+std::unique_ptr<ShapeRanker> MakeTwoStageRanker(ComputePool& pool) {
+  return std::make_unique<TwoStageRanker>(pool);
 }
 
 }  // namespace argmesh

@@ -1,4 +1,5 @@
-// Seam: which shapes of a collection are most like a query.
+// Seam: which shapes of a collection are most like a query, as wholes or by
+// their graphs.
 //
 // Repeats  equal snapshot and query give equal rankings, whatever the threads.
 // Fails    kCancelled, kDeadlineExceeded within 50 ms of the token's stop
@@ -23,6 +24,10 @@ struct RankQuery {
   const MatchableGraph& graph;
   MatchMode mode = MatchMode::kGlobal;
   AttributeSet attributes = AttributeSet::kFull;
+  // Null: by the graphs alone.
+  const PackedSignature* signature = nullptr;
+  int candidates = 0;  // graphs to be matched; 0: as many as pay
+  bool exact = false;  // all graphs
   int limit = 10;
   double min_score = 0;
   double min_query_coverage = 0;
@@ -32,6 +37,8 @@ struct RankQuery {
 struct RankedShape {
   GalleryEntryPtr entry;
   double score = 0;
+  double signature = 0;        // similarity, where there is one
+  int32_t candidate_rank = 0;  // by signature, from 1; 0: all are candidates
 };
 
 struct Ranking {
@@ -49,8 +56,9 @@ class ShapeRanker {
                                        const StopToken& stop) const = 0;
 };
 
-// Matches every shape on the pool's search threads. `pool` must outlive it.
-std::unique_ptr<ShapeRanker> MakeExactRanker(ComputePool& pool);
+// On the pool's search threads: all signatures, then the graphs of the best
+// candidates. `pool` must outlive it.
+std::unique_ptr<ShapeRanker> MakeTwoStageRanker(ComputePool& pool);
 
 MatchResult MatchGraphs(MatchMode mode, const MatchableGraph& query,
                         const MatchableGraph& target,

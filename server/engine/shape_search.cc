@@ -1,166 +1,217 @@
 #include "server/engine/shape_search.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
-#include "core/graph/graph_codec.h"
-#include "server/engine/error_reason.h"
-#include "server/engine/mesh_analysis.h"
+#include "core/matching/fused_score.h"
 #include "server/engine/request_rules.h"
+#include "server/engine/search_reranking.h"
 
 namespace argmesh {
 namespace {
 
-// Takes the time since the last call.
-class Stopwatch {
+constexpr double kMinAlike = 0.8;
+
+// Notes how long each stage took.
+class StageClock {
  public:
-  absl::Duration Lap() {
+  explicit StageClock(std::vector<StageTime>& stages) : stages_(stages) {}
+
+  void Lap(std::string stage) {
     const absl::Time now = absl::Now();
-    return now - std::exchange(last_, now);
+    stages_.push_back({std::move(stage), now - std::exchange(last_, now)});
   }
 
  private:
+  std::vector<StageTime>& stages_;
   absl::Time last_ = absl::Now();
 };
 
-RankQuery RankQueryOf(const SearchQuery& query, const MatchableGraph& graph) {
-  RankQuery rank{.graph = graph,
-                 .mode = query.mode,
-                 .attributes = query.attributes,
-                 .limit = query.limit,
-                 .min_score = query.min_score,
-                 .min_query_coverage = query.min_query_coverage,
-                 .exclude_id = ""};
+std::string ExcludedId(const SearchQuery& query) {
   const auto* stored = std::get_if<ShapeRef>(&query.query);
-  if (query.exclude_query && stored != nullptr &&
-      stored->collection == query.collection) {
-    rank.exclude_id = stored->id;
-  }
-  return rank;
+  const bool own = stored != nullptr && stored->collection == query.collection;
+  return query.exclude_query && own ? stored->id : "";
+}
+
+QueryNeeds NeedsOf(MatchMode mode, RankingMethod ranking) {
+  const bool fused = ranking == RankingMethod::kFused;
+  return {.signature = fused && mode == MatchMode::kGlobal,
+          .windows = fused && mode == MatchMode::kPartial};
+}
+
+std::vector<ScoreTerm> FusedTerms(double graph, double signature) {
+  return {{"graph", graph, kGraphWeight},
+          {"signature", signature, kSignatureWeight}};
+}
+
+std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match) {
+  return {{"windows", match.votes, 1.0 / 3},
+          {"surface^8", std::pow(match.fine_cover, 8), 2.0 / 3}};
+}
+
+// Of shapes that are not alike handedness says nothing.
+Handedness HandednessOf(const PackedSignature& a, const PackedSignature& b,
+                        double similarity) {
+  return similarity < kMinAlike ? Handedness::kUndecided
+                                : CompareHandedness(a, b);
+}
+
+RankQuery RankQueryOf(const SearchQuery& query, const MatchableGraph& graph,
+                      const PackedSignature* signature) {
+  return {.graph = graph,
+          .mode = query.mode,
+          .attributes = query.attributes,
+          .signature = signature,
+          .candidates = query.candidates,
+          .exact = query.exact,
+          .limit = query.limit,
+          .min_score = query.min_score,
+          .min_query_coverage = query.min_query_coverage,
+          .exclude_id = ExcludedId(query)};
 }
 
 }  // namespace
 
-absl::StatusOr<ShapeGraph> ParseStoredGraph(const StoredGraph& stored) {
-  const ErrorMetadata which = {{"collection", stored.record.collection},
-                               {"shape", stored.record.id}};
-  if (stored.graph_version != kShapeGraphVersion) {
-    return MakeError(
-        ErrorReason::kGraphVersionMismatch,
-        absl::StrFormat("the graph of shape %s has version %d, not %d",
-                        stored.record.id, stored.graph_version,
-                        kShapeGraphVersion),
-        which);
-  }
-  absl::StatusOr<ShapeGraph> graph = ParseShapeGraph(stored.graph);
-  if (graph.ok()) return graph;
-  return MakeError(ErrorReason::kStoredDataDamaged,
-                   absl::StrFormat("shape %s: %s", stored.record.id,
-                                   std::string(graph.status().message())),
-                   which);
-}
-
 ShapeSearch::ShapeSearch(const EngineOptions& options, const Catalog& catalog,
-                         const Gallery& gallery, ComputePool& pool)
-    : options_(options),
+                         const MeshStore& meshes, const Gallery& gallery,
+                         ComputePool& pool)
+    : pool_(pool),
       catalog_(catalog),
       gallery_(gallery),
-      pool_(pool),
-      ranker_(MakeExactRanker(pool)) {}
+      resolver_(options, catalog, meshes),
+      ranker_(MakeTwoStageRanker(pool)),
+      containment_(catalog, pool) {}
 
-absl::StatusOr<QueryGraph> ShapeSearch::ResolveStored(
-    const ShapeRef& shape, const CollectionSettings& settings) const {
-  ARGMESH_RETURN_IF_ERROR(CheckShapeRef(shape));
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
-                           catalog_.GetCollection(shape.collection));
-  CollectionSettings compared = collection.settings;
-  compared.store_meshes = settings.store_meshes;  // says nothing about graphs
-  if (compared != settings) {
-    return MakeError(ErrorReason::kGraphVersionMismatch,
-                     absl::StrFormat("collection %s has other settings: its "
-                                     "graphs cannot be compared",
-                                     shape.collection),
-                     {{"collection", shape.collection}});
-  }
-  ARGMESH_ASSIGN_OR_RETURN(
-      const StoredGraph stored,
-      catalog_.ReadGraph(shape.collection, shape.id, false));
-  QueryGraph query;
-  query.report = stored.record.report;
-  ARGMESH_ASSIGN_OR_RETURN(query.graph, ParseStoredGraph(stored));
-  return query;
-}
-
-absl::StatusOr<QueryGraph> ShapeSearch::Resolve(
-    const QueryShape& shape, const CollectionSettings& settings,
+absl::StatusOr<ResolvedQuery> ShapeSearch::Resolve(
+    const SearchQuery& query, const CollectionSettings& settings,
     const StopToken& stop) const {
-  if (const auto* stored = std::get_if<ShapeRef>(&shape)) {
-    return ResolveStored(*stored, settings);
+  const QueryNeeds needs = NeedsOf(query.mode, query.ranking);
+  if (query.region_nodes.empty()) {
+    return resolver_.Resolve(query.query, settings, needs, stop);
   }
-  if (const auto* mesh = std::get_if<MeshBytes>(&shape)) {
-    ARGMESH_ASSIGN_OR_RETURN(
-        AnalyzedMesh analyzed,
-        AnalyzeMesh(mesh->bytes, mesh->format, settings, options_, stop));
-    return QueryGraph{std::move(analyzed.computed.graph),
-                      std::move(analyzed.computed.labels),
-                      analyzed.computed.report};
-  }
-  const auto& graph = std::get<ShapeGraph>(shape);
-  if (const absl::Status status = CheckShapeGraph(graph); !status.ok()) {
-    return MakeError(ErrorReason::kGraphInvalid, std::string(status.message()));
-  }
-  return QueryGraph{graph, {}, {}};
+  return resolver_.ResolveRegion(std::get<ShapeRef>(query.query),
+                                 query.region_nodes, settings, needs, stop);
 }
 
-void ShapeSearch::FillMatches(const SearchQuery& query,
-                              const MatchableGraph& graph,
-                              const Ranking& ranking, const StopToken& stop,
-                              std::vector<SearchMatch>& matches) const {
-  matches.resize(ranking.shapes.size());
+absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
+                                       const ResolvedQuery& resolved,
+                                       const GallerySnapshot& gallery,
+                                       const StopToken& stop,
+                                       SearchAnswer& answer) const {
+  StageClock clock(answer.stats.stages);
+  const MatchableGraph graph(resolved.graph.graph);
+  std::optional<PackedSignature> signature;
+  if (resolved.signature) signature.emplace(*resolved.signature);
+  const PackedSignature* const packed = signature ? &*signature : nullptr;
+  ARGMESH_ASSIGN_OR_RETURN(
+      Ranking ranking,
+      ranker_->Rank(gallery, RankQueryOf(query, graph, packed), stop));
+  clock.Lap("match");
+  if (query.rerank && packed != nullptr) {
+    ARGMESH_RETURN_IF_ERROR(RerankShapes(pool_, stop, ranking.shapes));
+    clock.Lap("rerank");
+  }
+  answer.matches.resize(ranking.shapes.size());
   pool_.ParallelFor(
-      WorkClass::kSearch, static_cast<int64_t>(matches.size()), [&](int64_t i) {
+      WorkClass::kSearch, static_cast<int64_t>(ranking.shapes.size()),
+      [&](int64_t i) {
         if (!stop.Check().ok()) return;
-        const auto at = static_cast<size_t>(i);
-        const GalleryEntry& entry = *ranking.shapes[at].entry;
-        matches[at].shape = entry.record;
-        matches[at].match = MatchGraphs(query.mode, graph, entry.graph,
-                                        {.attributes = query.attributes});
-        if (!query.correspondence) matches[at].match.pairs.clear();
+        const RankedShape& ranked = ranking.shapes[static_cast<size_t>(i)];
+        SearchMatch& match = answer.matches[static_cast<size_t>(i)];
+        match.shape = ranked.entry->record;
+        match.score = ranked.score;
+        match.candidate_rank = ranked.candidate_rank;
+        match.match = MatchGraphs(query.mode, graph, ranked.entry->graph,
+                                  {.attributes = query.attributes});
+        if (packed == nullptr) return;
+        match.terms = FusedTerms(match.match.score, ranked.signature);
+        match.handedness =
+            HandednessOf(*packed, ranked.entry->signature, ranked.signature);
       });
+  clock.Lap("correspondence");
+  answer.stats.shapes_considered = ranking.considered;
+  answer.stats.shapes_matched = ranking.matched;
+  answer.stats.exhaustive = ranking.exhaustive;
+  return stop.Check();
+}
+
+absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
+                                        const ResolvedQuery& resolved,
+                                        const GallerySnapshot& gallery,
+                                        const StopToken& stop,
+                                        SearchAnswer& answer) const {
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainmentAnswer found,
+      containment_.Rank(gallery,
+                        {.windows = *resolved.windows,
+                         .sha256 = resolved.sha256,
+                         .limit = query.limit,
+                         .candidates = query.candidates,
+                         .exact = query.exact,
+                         .min_score = query.min_score,
+                         .min_query_coverage = query.min_query_coverage,
+                         .exclude_id = ExcludedId(query)},
+                        stop));
+  std::vector<StageTime>& stages = answer.stats.stages;
+  stages.push_back({"candidates", found.candidate_time});
+  stages.push_back({"match", found.match_time});
+  stages.push_back({"verification", found.verification_time});
+  StageClock clock(stages);
+  const MatchableGraph graph(resolved.graph.graph);
+  answer.matches.resize(found.shapes.size());
+  pool_.ParallelFor(
+      WorkClass::kSearch, static_cast<int64_t>(found.shapes.size()),
+      [&](int64_t i) {
+        if (!stop.Check().ok()) return;
+        ContainingShape& shape = found.shapes[static_cast<size_t>(i)];
+        SearchMatch& match = answer.matches[static_cast<size_t>(i)];
+        match.shape = shape.entry->record;
+        match.score = shape.score;
+        match.match = MatchPartial(graph, shape.entry->graph);
+        match.match.query_coverage = shape.match.query_coverage;
+        match.match.target_coverage = shape.match.target_coverage;
+        match.terms = ContainmentTerms(shape.match);
+        match.tied = shape.tied;
+        match.containment = std::move(shape.match);
+        if (found.generic) match.containment->verified = false;
+      });
+  clock.Lap("correspondence");
+  answer.query_generic = found.generic;
+  answer.stats.shapes_considered = found.considered;
+  answer.stats.shapes_matched = found.matched;
+  answer.stats.shapes_unusable += found.damaged;
+  answer.stats.exhaustive = found.matched == found.considered;
+  return stop.Check();
 }
 
 absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
                                                  const StopToken& stop) const {
   ARGMESH_RETURN_IF_ERROR(CheckSearchQuery(query));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  Stopwatch stopwatch;
   ARGMESH_ASSIGN_OR_RETURN(
       const GallerySnapshotPtr gallery,
       gallery_.Snapshot(query.collection, query.min_generation));
-  ARGMESH_ASSIGN_OR_RETURN(QueryGraph resolved,
-                           Resolve(query.query, gallery->settings, stop));
-  const MatchableGraph graph(resolved.graph);
   SearchAnswer answer;
-  answer.stats.query_time = stopwatch.Lap();
-  ARGMESH_ASSIGN_OR_RETURN(
-      const Ranking ranking,
-      ranker_->Rank(*gallery, RankQueryOf(query, graph), stop));
-  answer.stats.match_time = stopwatch.Lap();
-  FillMatches(query, graph, ranking, stop, answer.matches);
-  ARGMESH_RETURN_IF_ERROR(stop.Check());
-  answer.stats.correspondence_time = stopwatch.Lap();
-
+  StageClock clock(answer.stats.stages);
+  ARGMESH_ASSIGN_OR_RETURN(ResolvedQuery resolved,
+                           Resolve(query, gallery->settings, stop));
+  clock.Lap("query");
   answer.stats.generation = gallery->generation;
-  answer.stats.shapes_considered = ranking.considered;
-  answer.stats.shapes_matched = ranking.matched;
   answer.stats.shapes_unusable =
       gallery->damaged_shapes + gallery->outdated_shapes;
-  answer.stats.exhaustive =
-      ranking.exhaustive && answer.stats.shapes_unusable == 0;
-  if (query.query_graph) answer.query_graph = std::move(resolved);
+  ARGMESH_RETURN_IF_ERROR(
+      resolved.windows ? SearchWindows(query, resolved, *gallery, stop, answer)
+                       : SearchGraphs(query, resolved, *gallery, stop, answer));
+  answer.stats.exhaustive &= answer.stats.shapes_unusable == 0;
+  if (!query.correspondence) {
+    for (SearchMatch& match : answer.matches) match.match.pairs.clear();
+  }
+  if (query.query_graph) answer.query_graph = std::move(resolved.graph);
   return answer;
 }
 
@@ -169,18 +220,33 @@ absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
   ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
                            catalog_.GetCollection(query.collection));
-  ARGMESH_ASSIGN_OR_RETURN(QueryGraph a,
-                           Resolve(query.a, collection.settings, stop));
-  ARGMESH_ASSIGN_OR_RETURN(QueryGraph b,
-                           Resolve(query.b, collection.settings, stop));
+  // A part is compared by the graphs: where it lies is a search's matter.
+  const QueryNeeds needs = {.signature =
+                                NeedsOf(query.mode, query.ranking).signature};
+  ARGMESH_ASSIGN_OR_RETURN(
+      ResolvedQuery a,
+      resolver_.Resolve(query.a, collection.settings, needs, stop));
+  ARGMESH_ASSIGN_OR_RETURN(
+      ResolvedQuery b,
+      resolver_.Resolve(query.b, collection.settings, needs, stop));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   ComparedShapes compared;
-  compared.match =
-      MatchGraphs(query.mode, MatchableGraph(a.graph), MatchableGraph(b.graph),
-                  {.attributes = query.attributes});
+  SearchMatch& match = compared.match;
+  match.match = MatchGraphs(query.mode, MatchableGraph(a.graph.graph),
+                            MatchableGraph(b.graph.graph),
+                            {.attributes = query.attributes});
+  match.score = match.match.score;
+  if (a.signature && b.signature) {
+    const PackedSignature packed_a(*a.signature);
+    const PackedSignature packed_b(*b.signature);
+    const double similarity = SignatureSimilarity(packed_a, packed_b);
+    match.terms = FusedTerms(match.match.score, similarity);
+    match.score = FusedScore(match.match.score, similarity);
+    match.handedness = HandednessOf(packed_a, packed_b, similarity);
+  }
   if (query.graphs) {
-    compared.a = std::move(a);
-    compared.b = std::move(b);
+    compared.a = std::move(a.graph);
+    compared.b = std::move(b.graph);
   }
   return compared;
 }

@@ -3,15 +3,16 @@
 #define ARGMESH_SERVER_ENGINE_SHAPE_SEARCH_H_
 
 #include <memory>
-#include <string>
-#include <string_view>
 
 #include "absl/status/statusor.h"
 #include "core/base/stop_token.h"
 #include "server/engine/catalog.h"
 #include "server/engine/compute_pool.h"
+#include "server/engine/containment_ranker.h"
 #include "server/engine/engine_options.h"
 #include "server/engine/gallery.h"
+#include "server/engine/mesh_store.h"
+#include "server/engine/query_resolver.h"
 #include "server/engine/search_requests.h"
 #include "server/engine/shape_ranker.h"
 
@@ -21,35 +22,35 @@ class ShapeSearch {
  public:
   // All must outlive it.
   ShapeSearch(const EngineOptions& options, const Catalog& catalog,
-              const Gallery& gallery, ComputePool& pool);
+              const MeshStore& meshes, const Gallery& gallery,
+              ComputePool& pool);
 
-  // Two steps: the scores of all shapes, then the full match of the answer.
+  // The ranking, then the full match of what is answered.
   absl::StatusOr<SearchAnswer> Search(const SearchQuery& query,
                                       const StopToken& stop) const;
   absl::StatusOr<ComparedShapes> Compare(const CompareQuery& query,
                                          const StopToken& stop) const;
 
  private:
-  // kGraphVersionMismatch when a stored shape's collection has other settings
-  // than `settings`.
-  absl::StatusOr<QueryGraph> Resolve(const QueryShape& shape,
-                                     const CollectionSettings& settings,
-                                     const StopToken& stop) const;
-  absl::StatusOr<QueryGraph> ResolveStored(
-      const ShapeRef& shape, const CollectionSettings& settings) const;
-  void FillMatches(const SearchQuery& query, const MatchableGraph& graph,
-                   const Ranking& ranking, const StopToken& stop,
-                   std::vector<SearchMatch>& matches) const;
+  absl::StatusOr<ResolvedQuery> Resolve(const SearchQuery& query,
+                                        const CollectionSettings& settings,
+                                        const StopToken& stop) const;
+  absl::Status SearchGraphs(const SearchQuery& query,
+                            const ResolvedQuery& resolved,
+                            const GallerySnapshot& gallery,
+                            const StopToken& stop, SearchAnswer& answer) const;
+  absl::Status SearchWindows(const SearchQuery& query,
+                             const ResolvedQuery& resolved,
+                             const GallerySnapshot& gallery,
+                             const StopToken& stop, SearchAnswer& answer) const;
 
-  const EngineOptions& options_;
+  ComputePool& pool_;
   const Catalog& catalog_;
   const Gallery& gallery_;
-  ComputePool& pool_;
-  std::unique_ptr<ShapeRanker> ranker_;
+  const QueryResolver resolver_;
+  const std::unique_ptr<ShapeRanker> ranker_;
+  const ContainmentRanker containment_;
 };
-
-// The stored bytes as a graph. kGraphVersionMismatch, kStoredDataDamaged.
-absl::StatusOr<ShapeGraph> ParseStoredGraph(const StoredGraph& stored);
 
 }  // namespace argmesh
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/strings/str_format.h"
+#include "core/base/status_macros.h"
 #include "server/rpc/convert_mesh.h"
 #include "server/rpc/status.h"
 
@@ -13,13 +14,17 @@ namespace {
 // Level scores are floats.
 constexpr double kScoreTolerance = 1e-5;
 
-void AddTerm(const LevelScore& level, double weight,
-             v1::MatchExplanation* out) {
-  v1::ScoreTerm& term = *out->add_terms();
-  term.set_name("level " + level.name);
-  term.set_value(level.score);
-  term.set_weight(weight);
-  term.set_contribution(weight * level.score);
+void AddTerm(const ScoreTerm& term, v1::MatchExplanation* out) {
+  v1::ScoreTerm& added = *out->add_terms();
+  added.set_name(term.name);
+  added.set_value(term.value);
+  added.set_weight(term.weight);
+  added.set_contribution(term.value * term.weight);
+}
+
+void AddLevel(const LevelScore& level, double weight,
+              v1::MatchExplanation* out) {
+  AddTerm({"level " + level.name, level.score, weight}, out);
 }
 
 void ExplainMean(const MatchResult& match, v1::MatchExplanation* out) {
@@ -33,15 +38,87 @@ void ExplainMean(const MatchResult& match, v1::MatchExplanation* out) {
     if (std::abs(sum * weight - match.score) > kScoreTolerance) continue;
     out->clear_terms();
     for (size_t i = count - scored; i < count; ++i) {
-      AddTerm(match.level_scores[i], weight, out);
+      AddLevel(match.level_scores[i], weight, out);
     }
   }
 }
 
-void AddStage(const char* stage, absl::Duration elapsed, v1::SearchStats* out) {
-  v1::StageTime& added = *out->add_stage_times();
-  added.set_stage(stage);
-  *added.mutable_elapsed() = ToDuration(elapsed);
+void ExplainBestLevel(const MatchResult& match, v1::MatchExplanation* out) {
+  for (const LevelScore& level : match.level_scores) {
+    if (level.name == match.best_level &&
+        std::abs(level.score - match.score) <= kScoreTolerance) {
+      AddLevel(level, 1.0, out);
+      break;
+    }
+  }
+}
+
+absl::StatusOr<AttributeSet> AttributesOf(std::string_view field,
+                                          const v1::MatchParameters& parameters,
+                                          MatchMode mode) {
+  const std::string attributes = std::string(field) + ".attributes";
+  switch (parameters.attributes()) {
+    case v1::ATTRIBUTE_SET_UNSPECIFIED:
+    case v1::ATTRIBUTE_SET_FULL:
+      return AttributeSet::kFull;
+    case v1::ATTRIBUTE_SET_TUPLE:
+      if (mode == MatchMode::kGlobal) return AttributeSet::kTuple;
+      return FieldInvalid(attributes, "a partial search always takes all");
+    default:
+      return FieldInvalid(
+          attributes,
+          absl::StrFormat("%d is no set of attributes",
+                          static_cast<int>(parameters.attributes())));
+  }
+}
+
+absl::StatusOr<RankingMethod> RankingOf(std::string_view field,
+                                        const v1::MatchParameters& parameters,
+                                        bool graph_query) {
+  const std::string ranking = std::string(field) + ".ranking";
+  switch (parameters.ranking()) {
+    case v1::RANKING_METHOD_UNSPECIFIED:
+      return graph_query ? RankingMethod::kGraph : RankingMethod::kFused;
+    case v1::RANKING_METHOD_FUSED:
+      if (!graph_query) return RankingMethod::kFused;
+      return FieldInvalid(ranking,
+                          "a graph has no surface: use GRAPH, or a mesh or a "
+                          "stored shape as the query");
+    case v1::RANKING_METHOD_GRAPH:
+      return RankingMethod::kGraph;
+    default:
+      return FieldInvalid(
+          ranking, absl::StrFormat("%d is no ranking method",
+                                   static_cast<int>(parameters.ranking())));
+  }
+}
+
+v1::Handedness ToProto(Handedness handedness) {
+  switch (handedness) {
+    case Handedness::kSame:
+      return v1::HANDEDNESS_SAME;
+    case Handedness::kMirrored:
+      return v1::HANDEDNESS_MIRRORED;
+    case Handedness::kUndecided:
+      break;
+  }
+  return v1::HANDEDNESS_UNSPECIFIED;
+}
+
+v1::Containment ToProto(const ContainmentMatch& match, bool tied) {
+  v1::Containment out;
+  out.set_verified(match.verified);
+  out.set_tied(tied);
+  out.set_window_score(match.votes);
+  out.set_surface_score(match.fine_cover);
+  if (match.coarse_cover > 0) {
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        out.add_transform(match.transform(row, column));
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -60,32 +137,31 @@ absl::StatusOr<MatchMode> FromProto(std::string_view field,
   }
 }
 
-absl::StatusOr<AttributeSet> FromProto(std::string_view field,
-                                       const v1::MatchParameters& parameters,
-                                       MatchMode mode) {
+absl::StatusOr<MatchSettings> FromProto(std::string_view field,
+                                        const v1::MatchParameters& parameters,
+                                        MatchMode mode, bool graph_query) {
   if (!parameters.levels().empty()) {
     return FieldInvalid(std::string(field) + ".levels",
                         "not served by this version; leave it empty");
   }
-  const std::string attributes = std::string(field) + ".attributes";
-  switch (parameters.attributes()) {
-    case v1::ATTRIBUTE_SET_UNSPECIFIED:
-    case v1::ATTRIBUTE_SET_FULL:
-      return AttributeSet::kFull;
-    case v1::ATTRIBUTE_SET_TUPLE:
-      if (mode == MatchMode::kGlobal) return AttributeSet::kTuple;
-      return FieldInvalid(attributes, "a partial search always takes all");
-    default:
-      return FieldInvalid(
-          attributes,
-          absl::StrFormat("%d is no set of attributes",
-                          static_cast<int>(parameters.attributes())));
+  MatchSettings settings;
+  ARGMESH_ASSIGN_OR_RETURN(settings.attributes,
+                           AttributesOf(field, parameters, mode));
+  ARGMESH_ASSIGN_OR_RETURN(settings.ranking,
+                           RankingOf(field, parameters, graph_query));
+  settings.rerank = parameters.rerank();
+  if (settings.rerank && (mode != MatchMode::kGlobal ||
+                          settings.ranking != RankingMethod::kFused)) {
+    return FieldInvalid(std::string(field) + ".rerank",
+                        "only a global search with the fused ranking has it");
   }
+  return settings;
 }
 
-v1::Match ToProto(const MatchResult& match) {
+v1::Match ToProto(const SearchMatch& found) {
+  const MatchResult& match = found.match;
   v1::Match out;
-  out.set_score(match.score);
+  out.set_score(found.score);
   for (const LevelScore& level : match.level_scores) {
     v1::LevelScore& added = *out.add_level_scores();
     added.set_level(level.name);
@@ -102,21 +178,22 @@ v1::Match ToProto(const MatchResult& match) {
   }
   out.set_best_query_level(match.best_query_level);
   out.set_best_target_level(match.best_target_level);
+  out.set_handedness(ToProto(found.handedness));
+  if (found.containment) {
+    *out.mutable_containment() = ToProto(*found.containment, found.tied);
+  }
   return out;
 }
 
-v1::MatchExplanation Explain(const MatchResult& match, MatchMode mode) {
+v1::MatchExplanation Explain(const SearchMatch& match, MatchMode mode) {
   v1::MatchExplanation out;
-  if (mode == MatchMode::kGlobal) {
-    ExplainMean(match, &out);
-    return out;
-  }
-  for (const LevelScore& level : match.level_scores) {
-    if (level.name == match.best_level &&
-        std::abs(level.score - match.score) <= kScoreTolerance) {
-      AddTerm(level, 1.0, &out);
-      break;
-    }
+  out.set_candidate_rank(match.candidate_rank);
+  if (!match.terms.empty()) {
+    for (const ScoreTerm& term : match.terms) AddTerm(term, &out);
+  } else if (mode == MatchMode::kGlobal) {
+    ExplainMean(match.match, &out);
+  } else {
+    ExplainBestLevel(match.match, &out);
   }
   return out;
 }
@@ -128,9 +205,11 @@ v1::SearchStats ToProto(const SearchStats& stats) {
   out.set_candidates_ranked(stats.shapes_matched);
   out.set_exhaustive(stats.exhaustive);
   out.set_shapes_unusable(stats.shapes_unusable);
-  AddStage("query", stats.query_time, &out);
-  AddStage("match", stats.match_time, &out);
-  AddStage("correspondence", stats.correspondence_time, &out);
+  for (const StageTime& stage : stats.stages) {
+    v1::StageTime& added = *out.add_stage_times();
+    added.set_stage(stage.stage);
+    *added.mutable_elapsed() = ToDuration(stage.elapsed);
+  }
   return out;
 }
 

@@ -15,19 +15,29 @@ namespace argmesh {
 absl::StatusOr<MatchMode> FromProto(std::string_view field,
                                     v1::SearchMode mode);
 
-// FIELD_INVALID for a number that is no set, for another set than FULL in a
-// partial search, and for levels, which are not served yet.
-absl::StatusOr<AttributeSet> FromProto(std::string_view field,
-                                       const v1::MatchParameters& parameters,
-                                       MatchMode mode);
+struct MatchSettings {
+  AttributeSet attributes = AttributeSet::kFull;
+  RankingMethod ranking = RankingMethod::kFused;
+  bool rerank = false;
+};
+
+// `graph_query`: the query is a graph, which is ranked by graphs.
+//
+// FIELD_INVALID for a number that is no set or method, for another set than
+// FULL in a partial search, for what needs more than the graph of a graph
+// query, for `rerank` of anything but a fused global search, and for levels,
+// which are not served yet.
+absl::StatusOr<MatchSettings> FromProto(std::string_view field,
+                                        const v1::MatchParameters& parameters,
+                                        MatchMode mode, bool graph_query);
 
 // Without the shape and the explanation.
-v1::Match ToProto(const MatchResult& match);
+v1::Match ToProto(const SearchMatch& match);
 
-// Terms that add up to the score: a global score is the mean of the scores of
-// its finest levels, a partial score that of the best level. No terms when the
-// score is neither.
-v1::MatchExplanation Explain(const MatchResult& match, MatchMode mode);
+// Terms that add up to the score: those of a fused score; otherwise a global
+// score is the mean of the scores of its finest levels, a partial score that
+// of the best level. No terms when the score is neither.
+v1::MatchExplanation Explain(const SearchMatch& match, MatchMode mode);
 
 v1::SearchStats ToProto(const SearchStats& stats);
 

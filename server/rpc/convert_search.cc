@@ -83,9 +83,8 @@ absl::Status CheckServed(const v1::SearchShapesRequest& request) {
                      "filter: not served by this version; leave it empty",
                      {{"field", "filter"}});
   }
-  if (!request.region_node_ids().empty()) {
-    return FieldInvalid("region_node_ids",
-                        "not served by this version; leave it empty");
+  if (!request.region_node_ids().empty() && !request.has_shape()) {
+    return FieldInvalid("region_node_ids", "needs a stored shape as the query");
   }
   if (request.candidates() < 0) {
     return FieldInvalid("candidates", "negative");
@@ -135,9 +134,16 @@ absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
                            ParseCollectionName("parent", request.parent()));
   ARGMESH_RETURN_IF_ERROR(CheckServed(request));
   ARGMESH_ASSIGN_OR_RETURN(query.mode, FromProto("mode", request.mode()));
-  ARGMESH_ASSIGN_OR_RETURN(
-      query.attributes,
-      FromProto("parameters", request.parameters(), query.mode));
+  ARGMESH_ASSIGN_OR_RETURN(const MatchSettings settings,
+                           FromProto("parameters", request.parameters(),
+                                     query.mode, request.has_graph()));
+  query.attributes = settings.attributes;
+  query.ranking = settings.ranking;
+  query.rerank = settings.rerank;
+  query.candidates = request.candidates();
+  query.exact = request.exact();
+  query.region_nodes.assign(request.region_node_ids().begin(),
+                            request.region_node_ids().end());
   ARGMESH_ASSIGN_OR_RETURN(query.limit, LimitOf(request));
   ARGMESH_ASSIGN_OR_RETURN(query.min_score,
                            Share("min_score", request.min_score()));
@@ -159,8 +165,14 @@ absl::StatusOr<CompareQuery> FromProto(
                            ParseCollectionName("parent", request.parent()));
   ARGMESH_ASSIGN_OR_RETURN(query.mode, FromProto("mode", request.mode()));
   ARGMESH_ASSIGN_OR_RETURN(
-      query.attributes,
-      FromProto("parameters", request.parameters(), query.mode));
+      const MatchSettings settings,
+      FromProto("parameters", request.parameters(), query.mode,
+                request.query().has_graph() || request.target().has_graph()));
+  if (settings.rerank) {
+    return FieldInvalid("parameters.rerank", "two shapes have no order");
+  }
+  query.attributes = settings.attributes;
+  query.ranking = settings.ranking;
   ARGMESH_ASSIGN_OR_RETURN(query.a, QueryOf("query", request.query()));
   ARGMESH_ASSIGN_OR_RETURN(query.b, QueryOf("target", request.target()));
   query.graphs = request.return_graphs();
@@ -171,6 +183,7 @@ v1::SearchShapesResponse ToProto(const SearchAnswer& answer,
                                  const SearchAnswerForm& form) {
   v1::SearchShapesResponse out;
   *out.mutable_stats() = ToProto(answer.stats);
+  out.set_query_generic(answer.query_generic);
   if (answer.query_graph) {
     const QueryGraph& query = *answer.query_graph;
     if (query.report.faces > 0) {
@@ -183,10 +196,10 @@ v1::SearchShapesResponse ToProto(const SearchAnswer& answer,
   }
   auto left = form.max_bytes - static_cast<int64_t>(out.ByteSizeLong());
   for (const SearchMatch& found : answer.matches) {
-    v1::Match match = ToProto(found.match);
+    v1::Match match = ToProto(found);
     *match.mutable_shape() = ToProto(found.shape);
     if (form.explain) {
-      *match.mutable_explanation() = Explain(found.match, form.mode);
+      *match.mutable_explanation() = Explain(found, form.mode);
     }
     // Tag and length of a message in a field take at most 6 bytes.
     left -= static_cast<int64_t>(match.ByteSizeLong()) + 6;

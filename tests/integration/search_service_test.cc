@@ -1,11 +1,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <chrono>
+#include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "core/mesh/mesh_write.h"
 #include "tests/integration/server_fixture.h"
+#include "tests/support/test_meshes.h"
 
 namespace argmesh {
 namespace {
@@ -83,6 +88,70 @@ TEST_F(SearchServiceTest, FindsAStoredShapeFirstWithScoreOne) {
   }
 }
 
+TEST_F(SearchServiceTest, FindsThePlaceOfAMovedCopy) {
+  TriangleMesh copy = MakeDumbbell(16);
+  copy.V *= 3;
+  copy.V.rowwise() += Eigen::RowVector3d(5, 0, 0);
+  v1::SearchShapesRequest request = Request();
+  request.mutable_mesh()->set_data(
+      SerializeMesh(copy, MeshFormat::kOff).value());
+  request.set_mode(v1::SEARCH_MODE_PARTIAL);
+  v1::SearchShapesResponse response;
+  ASSERT_CALL_OK(Search(request, &response));
+  ASSERT_EQ(response.matches_size(), 3);
+  ExpectOrdered(response);
+  const v1::Match& best = response.matches(0);
+  EXPECT_EQ(best.shape().name(), "collections/c/shapes/dumbbell");
+  EXPECT_LT(best.score(), 1);
+  EXPECT_GT(best.containment().surface_score(), 0.95);
+  EXPECT_GT(best.query_coverage(), 0.95);
+  EXPECT_GT(best.target_coverage(), 0.95);
+  // From the copy to the stored shape: a third of the size.
+  const auto& transform = best.containment().transform();
+  ASSERT_EQ(transform.size(), 16);
+  const double length =
+      std::sqrt(transform[0] * transform[0] + transform[4] * transform[4] +
+                transform[8] * transform[8]);
+  EXPECT_NEAR(length, 1.0 / 3, 0.02);
+  EXPECT_EQ(transform[15], 1);
+}
+
+TEST_F(SearchServiceTest, TakesComponentsOfAStoredShapeAsTheQuery) {
+  for (const auto mode : {v1::SEARCH_MODE_GLOBAL, v1::SEARCH_MODE_PARTIAL}) {
+    v1::SearchShapesRequest request = ByShape("dumbbell");
+    request.set_mode(mode);
+    request.add_region_node_ids(0);
+    request.set_return_query_graph(true);
+    v1::SearchShapesResponse response;
+    ASSERT_CALL_OK(Search(request, &response));
+    EXPECT_EQ(response.matches_size(), 3);
+    v1::SearchShapesRequest whole = ByShape("dumbbell");
+    whole.set_return_query_graph(true);
+    v1::SearchShapesResponse whole_response;
+    ASSERT_CALL_OK(Search(whole, &whole_response));
+    EXPECT_NE(response.query_graph().SerializeAsString(),
+              whole_response.query_graph().SerializeAsString());
+    EXPECT_GT(response.query_report().boundary_edges(), 0);
+  }
+}
+
+TEST_F(SearchServiceTest, RanksAgainByNeighbourhoodOnlyWhenAsked) {
+  v1::SearchShapesRequest request = ByShape("torus");
+  v1::SearchShapesResponse plain;
+  ASSERT_CALL_OK(Search(request, &plain));
+  request.mutable_parameters()->set_rerank(true);
+  v1::SearchShapesResponse reranked;
+  ASSERT_CALL_OK(Search(request, &reranked));
+  ASSERT_EQ(reranked.matches_size(), plain.matches_size());
+  std::map<std::string, double> scores;
+  for (const auto& match : plain.matches()) {
+    scores[match.shape().name()] = match.score();
+  }
+  for (const auto& match : reranked.matches()) {
+    EXPECT_EQ(match.score(), scores.at(match.shape().name()));
+  }
+}
+
 TEST_F(SearchServiceTest, GivesAMeshAndItsGraphTheScoresOfTheStoredShape) {
   v1::SearchShapesResponse stored;
   ASSERT_CALL_OK(Search(ByShape("torus"), &stored));
@@ -102,14 +171,18 @@ TEST_F(SearchServiceTest, GivesAMeshAndItsGraphTheScoresOfTheStoredShape) {
   *by_graph.mutable_graph() = mesh.query_graph();
   v1::SearchShapesResponse graph;
   ASSERT_CALL_OK(Search(by_graph, &graph));
+  v1::SearchShapesRequest ranked_by_graph = ByShape("torus");
+  ranked_by_graph.mutable_parameters()->set_ranking(v1::RANKING_METHOD_GRAPH);
+  v1::SearchShapesResponse stored_graph;
+  ASSERT_CALL_OK(Search(ranked_by_graph, &stored_graph));
 
   ASSERT_EQ(mesh.matches_size(), stored.matches_size());
-  ASSERT_EQ(graph.matches_size(), stored.matches_size());
+  ASSERT_EQ(graph.matches_size(), stored_graph.matches_size());
   for (int i = 0; i < stored.matches_size(); ++i) {
     EXPECT_EQ(mesh.matches(i).SerializeAsString(),
               stored.matches(i).SerializeAsString());
     EXPECT_EQ(graph.matches(i).SerializeAsString(),
-              stored.matches(i).SerializeAsString());
+              stored_graph.matches(i).SerializeAsString());
   }
   EXPECT_FALSE(graph.has_query_graph());
 }
@@ -213,7 +286,16 @@ TEST_F(SearchServiceTest, RefusesRequestsItCannotAnswer) {
   add("mode", kInvalid, "FIELD_INVALID")
       .set_mode(static_cast<v1::SearchMode>(9));
   add("filter", kInvalid, "FILTER_INVALID").set_filter("a = \"b\"");
-  add("region", kInvalid, "FIELD_INVALID").add_region_node_ids(0);
+  add("region", grpc::StatusCode::NOT_FOUND, "NODE_NOT_FOUND")
+      .add_region_node_ids(99);
+  v1::SearchShapesRequest& region_of_mesh =
+      add("region of a mesh", kInvalid, "FIELD_INVALID");
+  region_of_mesh.mutable_mesh()->set_data(TorusOff());
+  region_of_mesh.add_region_node_ids(0);
+  add("ranking", kInvalid, "FIELD_INVALID")
+      .mutable_parameters()
+      ->set_ranking(static_cast<v1::RankingMethod>(9));
+  add("candidates", kInvalid, "FIELD_INVALID").set_candidates(-1);
   add("parameters", kInvalid, "FIELD_INVALID")
       .mutable_parameters()
       ->add_levels("count-16");

@@ -2,7 +2,9 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
+#include "core/containment/window_codec.h"
 #include "core/graph/graph_codec.h"
+#include "core/signature/signature_codec.h"
 #include "server/engine/mesh_analysis.h"
 #include "server/engine/record_codec.h"
 #include "server/engine/uid.h"
@@ -14,6 +16,19 @@ namespace {
 constexpr absl::Duration kRemembered = absl::Hours(1);
 
 absl::Time SampleTime() { return absl::FromUnixMicros(1'700'000'000'123'456); }
+
+WindowWords SampleWords(uint64_t seed) {
+  WindowWords words;
+  words.levels[0] = {static_cast<uint16_t>(seed % 1000)};
+  return words;
+}
+
+TargetWindows SampleWindows(uint64_t seed) {
+  TargetWindows windows;
+  windows.points.push_back(
+      PackPoint({static_cast<float>(seed % 8), 0, 0}, {0, 0, 1}));
+  return windows;
+}
 
 }  // namespace
 
@@ -37,9 +52,9 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(graph);
   put.labels = SerializeFaceLabels(MakeRandomFaceLabels(seed, 300));
-  put.descriptors = {absl::StrFormat("signature %d", seed),
-                     absl::StrFormat("words %d", seed),
-                     absl::StrFormat("windows %d", seed)};
+  put.descriptors = {EncodeSignature(SampleSignature(seed)),
+                     SerializeWindowWords(SampleWords(seed)),
+                     SerializeTargetWindows(SampleWindows(seed))};
   ShapeRecord& record = put.record;
   record.collection = collection.id;
   record.id = id;
@@ -58,6 +73,15 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   record.create_time = SampleTime() + absl::Seconds(seed);
   record.update_time = record.create_time;
   return put;
+}
+
+ShapeSignature SampleSignature(uint64_t seed) {
+  ShapeSignature signature;
+  signature.point.assign(kPointDims, 0);
+  signature.view.assign(kViewDims, 0);
+  signature.point[seed % kPointDims] = 1;
+  signature.view[seed % kViewDims] = 1;
+  return signature;
 }
 
 RequestStamp SampleRequest(char digit, std::string_view method,

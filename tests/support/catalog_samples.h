@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/signature/shape_signature.h"
 #include "server/engine/catalog.h"
 
 namespace argmesh {
@@ -15,6 +16,9 @@ CollectionRecord SampleCollection(const std::string& id);
 // A well-formed graph made from `seed`; equal seeds give equal meshes.
 ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
                    uint64_t seed);
+
+// Equal seeds give equal signatures, most others orthogonal ones.
+ShapeSignature SampleSignature(uint64_t seed);
 
 RequestStamp SampleRequest(char digit, std::string_view method,
                            std::string_view asked);

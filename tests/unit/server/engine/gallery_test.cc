@@ -61,10 +61,10 @@ TEST_F(GalleryTest, AppliesChangesInTheOrderOfTheirGenerations) {
   const int64_t put = Put(cups, "a");
   ASSERT_OK_AND_ASSIGN(const ShapeDeleted deleted,
                        catalog_.DeleteShape({"cups", "a", "", {}}));
-  gallery_.Follow("cups", cups.uid, deleted.generation, nullptr);
+  gallery_.Follow("cups", cups.uid, deleted.generation, std::nullopt);
   EXPECT_EQ(SizeOf("cups"), 0);
   // The earlier write is told last: the shape must not come back.
-  gallery_.Follow("cups", cups.uid, put, nullptr);
+  gallery_.Follow("cups", cups.uid, put, std::nullopt);
   EXPECT_EQ(SizeOf("cups"), 0);
   EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->generation,
             deleted.generation);
@@ -104,7 +104,7 @@ TEST_F(GalleryTest, IgnoresNewsOfACollectionThatIsGone) {
   gallery_.Remove(old.uid);
   const CollectionRecord cups = Insert("cups", 0);
   gallery_.Add(cups);
-  gallery_.Follow("cups", old.uid, 9, nullptr);
+  gallery_.Follow("cups", old.uid, 9, std::nullopt);
   EXPECT_EQ(SizeOf("cups"), 0);
   EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->generation, 0);
 }

@@ -1,0 +1,130 @@
+#include "server/engine/containment_ranker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "core/base/status_macros.h"
+#include "core/containment/containment_ranking.h"
+#include "core/containment/window_codec.h"
+
+namespace argmesh {
+namespace {
+
+constexpr double kMaxScore = 3;
+constexpr int kExactLimit = 150;
+
+// Reads candidates' windows; safe to call from any thread.
+class WindowLoader {
+ public:
+  WindowLoader(const Catalog& catalog, const GallerySnapshot& gallery,
+               const std::string& exclude_id)
+      : catalog_(catalog), gallery_(gallery), exclude_id_(exclude_id) {}
+
+  // Null for the excluded shape, for one that went since the snapshot and for
+  // one that cannot be read.
+  absl::StatusOr<std::shared_ptr<const TargetWindows>> Load(int64_t slot) {
+    const std::string& id = gallery_.entry(slot)->record.id;
+    if (id == exclude_id_) return nullptr;
+    const absl::StatusOr<std::string> bytes =
+        catalog_.ReadWindows(gallery_.collection_uid, id);
+    if (absl::IsNotFound(bytes.status())) return nullptr;
+    if (bytes.ok()) {
+      absl::StatusOr<TargetWindows> windows = ParseTargetWindows(*bytes);
+      if (windows.ok()) {
+        return std::make_shared<const TargetWindows>(*std::move(windows));
+      }
+    } else if (!absl::IsDataLoss(bytes.status())) {
+      return bytes.status();
+    }
+    ++damaged_;
+    return nullptr;
+  }
+
+  int64_t damaged() const { return damaged_; }
+
+ private:
+  const Catalog& catalog_;
+  const GallerySnapshot& gallery_;
+  const std::string& exclude_id_;
+  std::atomic<int64_t> damaged_{0};
+};
+
+RankContainmentOptions OptionsOf(const ContainmentQuery& query, int64_t size) {
+  const int all = static_cast<int>(std::max<int64_t>(size, 1));
+  // One more: the shape to be left out takes a place.
+  const int limit = query.limit + (query.exclude_id.empty() ? 0 : 1);
+  RankContainmentOptions options;
+  options.limit = std::min(limit, all);
+  options.exact_limit = query.candidates > 0 ? query.candidates : kExactLimit;
+  options.exact_limit = std::clamp(options.exact_limit, options.limit, all);
+  if (query.exact) {
+    options.exact_limit = all;
+    options.verify_limit = all;
+  }
+  return options;
+}
+
+// Of a shape in itself.
+ContainmentMatch WholeMatch() {
+  ContainmentMatch match;
+  match.votes = match.coarse_cover = match.fine_cover = 1;
+  match.score = kMaxScore;
+  match.verified = true;
+  match.query_coverage = match.target_coverage = 1;
+  return match;
+}
+
+bool RanksBefore(const ContainingShape& a, const ContainingShape& b) {
+  if (a.score != b.score) return a.score > b.score;
+  return a.entry->record.id < b.entry->record.id;
+}
+
+}  // namespace
+
+double ContainmentScore(const ContainmentMatch& match) {
+  return std::clamp(match.score / kMaxScore, 0.0, 1.0);
+}
+
+absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
+    const GallerySnapshot& gallery, const ContainmentQuery& query,
+    const StopToken& stop) const {
+  ContainmentAnswer answer;
+  WindowLoader loader(catalog_, gallery, query.exclude_id);
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainmentRanking ranking,
+      RankContainment(
+          query.windows, gallery.windows,
+          [&](int64_t slot) { return loader.Load(slot); },
+          OptionsOf(query, gallery.size),
+          [this](int64_t count, const std::function<void(int64_t)>& body) {
+            pool_.ParallelFor(WorkClass::kSearch, count, body);
+          },
+          stop));
+  for (RankedContainment& ranked : ranking.matches) {
+    ContainingShape shape{gallery.entry(ranked.slot), 0,
+                          std::move(ranked.match), ranked.tied};
+    if (shape.entry->record.sha256 == query.sha256) shape.match = WholeMatch();
+    shape.score = ContainmentScore(shape.match);
+    if (shape.score >= query.min_score &&
+        shape.match.query_coverage >= query.min_query_coverage) {
+      answer.shapes.push_back(std::move(shape));
+    }
+  }
+  std::sort(answer.shapes.begin(), answer.shapes.end(), RanksBefore);
+  if (answer.shapes.size() > static_cast<size_t>(query.limit)) {
+    answer.shapes.resize(static_cast<size_t>(query.limit));
+  }
+  answer.generic = ranking.generic;
+  answer.considered = ranking.considered;
+  answer.matched = ranking.loaded;
+  answer.damaged = loader.damaged();
+  answer.candidate_time = absl::Seconds(ranking.index_seconds);
+  answer.match_time = absl::Seconds(ranking.exact_seconds);
+  answer.verification_time = absl::Seconds(ranking.verify_seconds);
+  return answer;
+}
+
+}  // namespace argmesh

@@ -1,0 +1,75 @@
+// Which shapes of a collection contain a query's surface.
+//
+// Repeats  equal snapshot and query give equal rankings, whatever the threads.
+// Fails    kCancelled, kDeadlineExceeded within 50 ms of the token's stop
+#ifndef ARGMESH_SERVER_ENGINE_CONTAINMENT_RANKER_H_
+#define ARGMESH_SERVER_ENGINE_CONTAINMENT_RANKER_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "core/base/sha256.h"
+#include "core/base/stop_token.h"
+#include "core/containment/containment_match.h"
+#include "core/containment/window_set.h"
+#include "server/engine/catalog.h"
+#include "server/engine/compute_pool.h"
+#include "server/engine/gallery_snapshot.h"
+
+namespace argmesh {
+
+struct ContainmentQuery {
+  const QueryWindows& windows;
+  // Of the query's bytes: a shape of the same bytes holds it for certain.
+  std::optional<Sha256Digest> sha256;
+  int limit = 10;
+  int candidates = 0;  // shapes whose windows are read; 0: as many as pay
+  bool exact = false;  // all of them
+  double min_score = 0;
+  double min_query_coverage = 0;
+  std::string exclude_id;  // of the collection; empty: none
+};
+
+struct ContainingShape {
+  GalleryEntryPtr entry;
+  double score = 0;  // ContainmentScore
+  ContainmentMatch match;
+  bool tied = false;
+};
+
+struct ContainmentAnswer {
+  std::vector<ContainingShape> shapes;  // by score, descending, then by id
+  bool generic = false;
+  int64_t considered = 0;
+  int64_t matched = 0;  // by their windows
+  int64_t damaged = 0;  // candidates whose windows cannot be read
+  absl::Duration candidate_time;
+  absl::Duration match_time;
+  absl::Duration verification_time;
+};
+
+class ContainmentRanker {
+ public:
+  // Both must outlive it.
+  ContainmentRanker(const Catalog& catalog, ComputePool& pool)
+      : catalog_(catalog), pool_(pool) {}
+
+  absl::StatusOr<ContainmentAnswer> Rank(const GallerySnapshot& gallery,
+                                         const ContainmentQuery& query,
+                                         const StopToken& stop) const;
+
+ private:
+  const Catalog& catalog_;
+  ComputePool& pool_;
+};
+
+// S + 2 F^8 as a share of its most, 0 .. 1.
+double ContainmentScore(const ContainmentMatch& match);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_CONTAINMENT_RANKER_H_

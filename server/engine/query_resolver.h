@@ -1,0 +1,82 @@
+// From what a request asks about to what can be matched.
+#ifndef ARGMESH_SERVER_ENGINE_QUERY_RESOLVER_H_
+#define ARGMESH_SERVER_ENGINE_QUERY_RESOLVER_H_
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/base/sha256.h"
+#include "core/base/stop_token.h"
+#include "core/containment/window_set.h"
+#include "core/signature/shape_signature.h"
+#include "server/engine/catalog.h"
+#include "server/engine/engine_options.h"
+#include "server/engine/mesh_store.h"
+#include "server/engine/search_requests.h"
+
+namespace argmesh {
+
+// What a query is matched by, beside its graph.
+struct QueryNeeds {
+  bool signature = false;
+  bool windows = false;
+};
+
+struct ResolvedQuery {
+  QueryGraph graph;
+  std::optional<ShapeSignature> signature;  // as needed, never of a bare graph
+  std::optional<QueryWindows> windows;      // as needed, never of a bare graph
+  std::optional<Sha256Digest> sha256;       // of a mesh as it came, whole
+};
+
+class QueryResolver {
+ public:
+  // All must outlive it.
+  QueryResolver(const EngineOptions& options, const Catalog& catalog,
+                const MeshStore& meshes)
+      : options_(options), catalog_(catalog), meshes_(meshes) {}
+
+  // Fails    kGraphVersionMismatch  a stored shape's collection has other
+  //          settings than `settings`, or another version computed it
+  //          kMeshNotStored  windows of a stored shape whose mesh is not kept
+  //          kGraphInvalid; as AnalyzeMesh
+  absl::StatusOr<ResolvedQuery> Resolve(const QueryShape& shape,
+                                        const CollectionSettings& settings,
+                                        const QueryNeeds& needs,
+                                        const StopToken& stop) const;
+
+  // The part of a stored shape's mesh that its finest components `nodes` are,
+  // as a shape of its own.
+  //
+  // Fails    kNodeNotFound, kMeshNotStored; as Resolve
+  absl::StatusOr<ResolvedQuery> ResolveRegion(
+      const ShapeRef& shape, std::span<const int32_t> nodes,
+      const CollectionSettings& settings, const QueryNeeds& needs,
+      const StopToken& stop) const;
+
+ private:
+  absl::StatusOr<StoredGraph> ReadGraph(const ShapeRef& shape,
+                                        const CollectionSettings& settings,
+                                        bool with_labels) const;
+  absl::StatusOr<ResolvedQuery> ResolveStored(
+      const ShapeRef& shape, const CollectionSettings& settings,
+      const QueryNeeds& needs, const StopToken& stop) const;
+  absl::StatusOr<TriangleMesh> ReadMesh(const ShapeRecord& record) const;
+
+  const EngineOptions& options_;
+  const Catalog& catalog_;
+  const MeshStore& meshes_;
+};
+
+// The stored bytes as a graph. kGraphVersionMismatch, kStoredDataDamaged.
+absl::StatusOr<ShapeGraph> ParseStoredGraph(const StoredGraph& stored);
+
+// kMeshNotStored.
+absl::Status MeshNotStoredError(const ShapeRecord& record);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_ENGINE_QUERY_RESOLVER_H_
