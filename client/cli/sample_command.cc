@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_write.h"
 #include "core/synthesis/mesh_cut.h"
+#include "core/synthesis/mesh_similarity.h"
 #include "core/synthesis/sample_shape.h"
 
 namespace argmesh {
@@ -22,8 +23,8 @@ namespace fs = std::filesystem;
 constexpr char kDetails[] =
     R"(Writes DIR/CLASS/CLASS-NN.off and DIR/labels.tsv: seeded procedural meshes in
 named classes, for a first try and for tests. Equal options give equal files.
-With --part half of one more shape of a class is written to FILE, as a
-query for a partial search.
+With --part half of the class's first shape is written to FILE, turned and at
+another size, as a query for a partial search.
 
 Examples:
   argmesh sample --out meshes --shapes-per-class 6
@@ -132,9 +133,10 @@ absl::StatusOr<int> WritePart(const Session& session,
   ARGMESH_RETURN_IF_ERROR(ClassesOf(only).status());
   ARGMESH_ASSIGN_OR_RETURN(
       const SampleShape shape,
-      MakeSampleShape(arguments.part, VariantSeed(arguments.seed, 0),
+      MakeSampleShape(arguments.part, VariantSeed(arguments.seed, 1),
                       {.target_vertices = arguments.vertices}));
-  const TriangleMesh half = HalfOf(shape.mesh);
+  const TriangleMesh half =
+      RandomSimilarity(HalfOf(shape.mesh), arguments.seed);
   ARGMESH_RETURN_IF_ERROR(WriteOff(arguments.out, half));
   if (session.options.json) {
     session.Print({{"out", arguments.out},
@@ -142,7 +144,7 @@ absl::StatusOr<int> WritePart(const Session& session,
                    {"vertices", half.num_vertices()},
                    {"faces", half.num_faces()}});
   } else {
-    session.out << absl::StrFormat("half of a %s in %s: %d vertices\n",
+    session.out << absl::StrFormat("half of the first %s in %s: %d vertices\n",
                                    arguments.part, arguments.out,
                                    half.num_vertices());
   }
@@ -180,7 +182,9 @@ void AddSampleCommand(CLI::App& app, CommandSet& commands) {
                    "Only these classes, names with commas")
       ->delimiter(',')
       ->type_name("NAMES");
-  command->add_option("--part", arguments->part, "Half of a shape of a class")
+  command
+      ->add_option("--part", arguments->part,
+                   "Half of the first shape of a class")
       ->type_name("CLASS");
 }
 
