@@ -24,6 +24,9 @@ namespace {
 
 constexpr std::string_view kMagic = "ARGC";
 constexpr std::string_view kWhat = "signature codebook";
+// Places vary about as much as the widest axis of the histograms.
+const Eigen::Array<float, 1, kPlaceDims> kPlaceMiddle(0.4F, 0.65F);
+const Eigen::Array<float, 1, kPlaceDims> kPlaceScale(0.5F, 1.0F);
 
 template <typename Matrix>
 void WriteMatrix(const Matrix& matrix, ByteWriter& writer) {
@@ -74,6 +77,12 @@ absl::Status CheckKnots(const PointRows& knots) {
   return absl::OkStatus();
 }
 
+Eigen::VectorXf Centered(const Eigen::VectorXf& fisher_vector,
+                         const Eigen::VectorXf& mean) {
+  if (fisher_vector.isZero(0)) return fisher_vector;
+  return (fisher_vector - mean).normalized();
+}
+
 }  // namespace
 
 float FieldScore(const Codebook& codebook, int field, float value) {
@@ -103,7 +112,28 @@ PointRows NormalizeFields(const Codebook& codebook, const PointRows& fields) {
 }
 
 PointRows ProjectPatches(const Codebook& codebook, const PointRows& patches) {
-  return (patches.rowwise() - codebook.patch_mean) * codebook.patch_axes;
+  PointRows projected(patches.rows(), kPatchAxes + kPlaceDims);
+  projected.leftCols(kPatchAxes) =
+      (patches.leftCols(kPatchDims).rowwise() - codebook.patch_mean) *
+      codebook.patch_axes;
+  const auto place = patches.rightCols(kPlaceDims).array();
+  projected.rightCols(kPlaceDims) =
+      ((place.rowwise() - kPlaceMiddle).rowwise() * kPlaceScale).matrix();
+  return projected;
+}
+
+Eigen::VectorXf EncodeFields(const Codebook& codebook,
+                             const PointRows& fields) {
+  return Centered(
+      EncodeFisherVector(codebook.points, NormalizeFields(codebook, fields)),
+      codebook.point_mean);
+}
+
+Eigen::VectorXf EncodePatches(const Codebook& codebook,
+                              const PointRows& patches) {
+  return Centered(
+      EncodeFisherVector(codebook.patches, ProjectPatches(codebook, patches)),
+      codebook.view_mean);
 }
 
 std::string EncodeCodebook(const Codebook& codebook) {
@@ -115,6 +145,8 @@ std::string EncodeCodebook(const Codebook& codebook) {
   WriteMatrix(codebook.patch_mean, writer);
   WriteMatrix(codebook.patch_axes, writer);
   WriteMixture(codebook.patches, writer);
+  WriteMatrix(codebook.point_mean, writer);
+  WriteMatrix(codebook.view_mean, writer);
   return SealBytes(kMagic, kSignatureVersion, writer.bytes());
 }
 
@@ -137,8 +169,11 @@ absl::StatusOr<Codebook> DecodeCodebook(std::string_view bytes) {
       ReadMatrix(1, kPatchDims, reader, codebook.patch_mean));
   ARGMESH_RETURN_IF_ERROR(
       ReadMatrix(kPatchDims, kPatchAxes, reader, codebook.patch_axes));
+  ARGMESH_RETURN_IF_ERROR(ReadMixture(kViewMixtureSize, kPatchAxes + kPlaceDims,
+                                      reader, codebook.patches));
   ARGMESH_RETURN_IF_ERROR(
-      ReadMixture(kViewMixtureSize, kPatchAxes, reader, codebook.patches));
+      ReadMatrix(kPointDims, 1, reader, codebook.point_mean));
+  ARGMESH_RETURN_IF_ERROR(ReadMatrix(kViewDims, 1, reader, codebook.view_mean));
   ARGMESH_RETURN_IF_ERROR(reader.ExpectEnd());
   return codebook;
 }

@@ -13,6 +13,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/signature/diagonal_mixture.h"
+#include "core/signature/shape_signature.h"
 
 namespace argmesh {
 
@@ -20,7 +21,8 @@ inline constexpr int kNumFields = 12;   // quantities of a point
 inline constexpr int kFieldKnots = 65;  // of the scale of each quantity
 inline constexpr int kPointMixtureSize = 32;
 inline constexpr int kPatchDims = 128;  // gradient histogram of a patch
-inline constexpr int kPatchAxes = 32;
+inline constexpr int kPlaceDims = 2;    // where a patch lies
+inline constexpr int kPatchAxes = 30;   // kept of a gradient histogram
 inline constexpr int kViewMixtureSize = 16;
 // Knots stand for the normal scores -kMaxScore .. kMaxScore in even steps:
 // the quantiles 0.002 .. 0.998.
@@ -36,7 +38,12 @@ struct Codebook {
 
   Eigen::RowVectorXf patch_mean;  // kPatchDims
   PointRows patch_axes;           // kPatchDims x kPatchAxes
-  DiagonalMixture patches;        // kViewMixtureSize in kPatchAxes
+  DiagonalMixture patches;        // kViewMixtureSize in kPatchAxes + kPlaceDims
+
+  // Means of the Fisher vectors of many shapes: what all shapes have in
+  // common tells none of them apart.
+  Eigen::VectorXf point_mean;  // kPointDims
+  Eigen::VectorXf view_mean;   // kViewDims
 };
 
 // The normal score of a value of a quantity; ties take the middle of theirs.
@@ -44,10 +51,17 @@ float FieldScore(const Codebook& codebook, int field, float value);
 
 // Points (N x kNumFields) in the coordinates of codebook.points.
 PointRows NormalizeFields(const Codebook& codebook, const PointRows& fields);
-// Patches (N x kPatchDims) in the coordinates of codebook.patches.
+// Patches (N x (kPatchDims + kPlaceDims)) in the coordinates of
+// codebook.patches.
 PointRows ProjectPatches(const Codebook& codebook, const PointRows& patches);
 
-// Sealed bytes of floats, about 28 KB.
+// The parts of a signature: Fisher vectors less their mean, of unit length.
+// Zero for no rows.
+Eigen::VectorXf EncodeFields(const Codebook& codebook, const PointRows& fields);
+Eigen::VectorXf EncodePatches(const Codebook& codebook,
+                              const PointRows& patches);
+
+// Sealed bytes of floats, about 35 KB.
 std::string EncodeCodebook(const Codebook& codebook);
 
 // Fails    kDataLoss            damaged, or numbers no codebook can have

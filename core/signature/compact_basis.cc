@@ -16,6 +16,7 @@
 #include "core/base/sealed_bytes.h"
 #include "core/base/status_macros.h"
 #include "core/signature/signature_codec.h"
+#include "core/signature/similarity_scale.h"
 
 namespace argmesh {
 namespace {
@@ -31,11 +32,16 @@ constexpr uint64_t kSeed = 1;
 constexpr double kSmallestVariance = 1e-10;
 constexpr float kLargestCode = 127;
 
+// Distances are those that similarity looks at.
 Eigen::VectorXf Flatten(const ShapeSignature& signature) {
   Eigen::VectorXf flat(kSignatureDims);
-  std::copy(signature.point.begin(), signature.point.end(), flat.begin());
-  std::copy(signature.view.begin(), signature.view.end(),
-            flat.begin() + kPointDims);
+  const auto part = [](const std::vector<float>& values, double share) {
+    return static_cast<float>(std::sqrt(share)) *
+           Eigen::Map<const Eigen::VectorXf>(
+               values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  flat.head(kPointDims) = part(signature.point, kPointShare);
+  flat.tail(kViewDims) = part(signature.view, kViewShare);
   return flat;
 }
 

@@ -61,13 +61,11 @@ absl::StatusOr<ShapeSignature> ComputeShapeSignature(
   const absl::Time prepared = absl::Now();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows fields,
                            MeasurePointFields(surface, stop));
-  signature.point = RoundToHalf(
-      EncodeFisherVector(codebook->points, NormalizeFields(*codebook, fields)));
+  signature.point = RoundToHalf(EncodeFields(*codebook, fields));
   const absl::Time measured = absl::Now();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows patches,
                            DescribeViews(surface, stop));
-  signature.view = RoundToHalf(EncodeFisherVector(
-      codebook->patches, ProjectPatches(*codebook, patches)));
+  signature.view = RoundToHalf(EncodePatches(*codebook, patches));
   if (times != nullptr) {
     *times = {prepared - start, measured - prepared, absl::Now() - measured};
   }

@@ -9,7 +9,7 @@
 namespace argmesh {
 namespace {
 
-constexpr float kFixedPoint = 1 << 14;  // of a length of 1
+constexpr double kFixedPoint = 1 << 14;  // of a length of 1
 
 double SquaredDistance(const std::vector<float>& a,
                        const std::vector<float>& b) {
@@ -22,8 +22,7 @@ double SquaredDistance(const std::vector<float>& a,
   return squared;
 }
 
-// Parts of length up to 1 each, at most 2^28 together with themselves or with
-// others: no sum of products overflows.
+// No sum of products overflows: vectors are at most 2^14 long.
 int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
   int32_t sum = 0;
   for (size_t i = 0; i < a.size(); ++i) {
@@ -55,8 +54,8 @@ double SignatureSimilarity(const PackedSignature& a, const PackedSignature& b) {
   const double squared =
       (static_cast<double>(a.squared_) + static_cast<double>(b.squared_) -
        2 * static_cast<double>(Dot(a.values_, b.values_))) /
-      (static_cast<double>(kFixedPoint) * static_cast<double>(kFixedPoint));
-  return SimilarityOfDistance(std::sqrt(std::max(0.0, squared) / 2));
+      (kFixedPoint * kFixedPoint);
+  return SimilarityOfDistance(std::sqrt(std::max(0.0, squared)));
 }
 
 }  // namespace argmesh

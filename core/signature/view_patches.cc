@@ -39,6 +39,7 @@ Eigen::Index DescribeView(const DepthImage& image, Eigen::Index row,
   const GradientImage half =
       ComputeGradients(HalveImage(image, kImageSize), kHalf);
   Eigen::RowVectorXf histogram(kPatchDims);
+  constexpr float kMiddle = (kImageSize - 1) / 2.0F;
   for (int k = 0; k < kPatchesOfView; ++k) {
     // One pixel in each of as many equal parts of the shape, spread inside
     // them by multiples of the golden ratio.
@@ -53,7 +54,10 @@ Eigen::Index DescribeView(const DepthImage& image, Eigen::Index row,
       patch = {(patch.x - 0.5F) / 2, (patch.y - 0.5F) / 2, patch.side / 2};
     }
     if (!DescribePatch(size.halved ? half : full, patch, histogram)) continue;
-    patches.row(row++) = histogram;
+    const float dx = static_cast<float>(pixel % kImageSize) - kMiddle;
+    const float dy = static_cast<float>(pixel / kImageSize) - kMiddle;
+    patches.row(row++) << histogram, std::hypot(dx, dy) / kMiddle,
+        image[static_cast<size_t>(pixel)];
   }
   return row;
 }
@@ -66,7 +70,7 @@ absl::StatusOr<PointRows> DescribeViews(const SignatureSurface& surface,
   const DepthRenderer renderer(surface.mesh);
   PointRows patches(
       static_cast<Eigen::Index>(directions.size()) * kPatchesOfView,
-      kPatchDims);
+      kPatchDims + kPlaceDims);
   Eigen::Index rows = 0;
   for (size_t d = 0; d < directions.size(); d += 2) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());

@@ -10,9 +10,10 @@
 
 namespace argmesh {
 
-// Up to 42 views x 72 patches rows of kPatchDims numbers, unit length; patches
-// of three sizes around pixels of the shape. No rows for a surface too thin to
-// be seen.
+// Up to 42 views x 72 patches rows of kPatchDims numbers of unit length, then
+// the patch's distance from the middle of the image (0 .. 1.42) and its depth
+// (0 .. 1); patches of three sizes around pixels of the shape. No rows for a
+// surface too thin to be seen.
 //
 // Repeats  equal input gives bit-equal output.
 // Fails    kCancelled, kDeadlineExceeded

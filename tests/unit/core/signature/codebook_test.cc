@@ -67,11 +67,11 @@ TEST(FieldScore, InterpolatesBetweenKnots) {
   // A run of equal knots: a value that many points have.
   for (int k = 10; k <= 20; ++k) codebook.field_knots(1, k) = 10;
   constexpr float kMiddle = (kFieldKnots - 1) / 2.0F;
-  EXPECT_FLOAT_EQ(FieldScore(codebook, 0, kMiddle), 0);
+  EXPECT_NEAR(FieldScore(codebook, 0, kMiddle), 0, 1e-6);
   EXPECT_FLOAT_EQ(FieldScore(codebook, 0, -5), -kMaxScore);
   EXPECT_FLOAT_EQ(FieldScore(codebook, 0, 1e6F), kMaxScore);
-  EXPECT_FLOAT_EQ(FieldScore(codebook, 0, kMiddle + 0.5F),
-                  kMaxScore / (kFieldKnots - 1));
+  EXPECT_NEAR(FieldScore(codebook, 0, kMiddle + 0.5F),
+              kMaxScore / (kFieldKnots - 1), 1e-6);
   EXPECT_FLOAT_EQ(FieldScore(codebook, 1, 10), FieldScore(codebook, 0, 15));
 }
 

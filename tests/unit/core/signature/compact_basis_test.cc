@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/base/sealed_bytes.h"
 #include "core/signature/signature_codec.h"
+#include "core/signature/similarity_scale.h"
 #include "tests/support/status_matchers.h"
 #include "tests/unit/core/signature/random_signature.h"
 
@@ -99,10 +101,14 @@ TEST(CompactBasis, GivesAZeroForItsMean) {
   const std::vector<ShapeSignature> signatures = MakeClusters(2, 1);
   ASSERT_OK_AND_ASSIGN(CompactBasis basis,
                        FitCompactBasis(Pointers(signatures)));
-  std::copy(signatures[0].point.begin(), signatures[0].point.end(),
-            basis.mean.begin());
-  std::copy(signatures[0].view.begin(), signatures[0].view.end(),
-            basis.mean.begin() + kPointDims);
+  for (int i = 0; i < kPointDims; ++i) {
+    basis.mean[i] = static_cast<float>(std::sqrt(kPointShare)) *
+                    signatures[0].point[static_cast<size_t>(i)];
+  }
+  for (int i = 0; i < kViewDims; ++i) {
+    basis.mean[kPointDims + i] = static_cast<float>(std::sqrt(kViewShare)) *
+                                 signatures[0].view[static_cast<size_t>(i)];
+  }
   const CompactVector zero = ProjectSignature(basis, signatures[0]);
   EXPECT_EQ(zero, CompactVector{});
   EXPECT_EQ(CompactSimilarity(zero, zero), 0.0);

@@ -75,7 +75,9 @@ TEST(ComputePosteriors, ShareEachPointOut) {
   const Eigen::Index left = mixture.means(0, 0) < 0 ? 0 : 1;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     EXPECT_NEAR(posteriors.row(i).sum(), 1, 1e-5);
-    if (points(i, 0) < -3) EXPECT_GT(posteriors(i, left), 0.99);
+    if (points(i, 0) < -3) {
+      EXPECT_GT(posteriors(i, left), 0.99);
+    }
   }
 }
 
