@@ -17,8 +17,9 @@
 namespace argmesh {
 
 struct RerankOptions {
-  int neighbors = 20;           // whose reciprocity is asked, k1, >= 1
-  int expansion = 6;            // whose encodings are averaged, k2, >= 1
+  // About as many as a shape has mates; k1 and k2 of the paper.
+  int neighbors = 10;           // whose reciprocity is asked, >= 1
+  int expansion = 3;            // whose encodings are averaged, >= 1
   double original_share = 0.3;  // of the plain distance in the result, 0 .. 1
 };
 
