@@ -34,19 +34,23 @@ int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
 }  // namespace
 
 double SignatureSimilarity(const ShapeSignature& a, const ShapeSignature& b) {
-  return SimilarityOfDistance(std::sqrt(
-      (SquaredDistance(a.point, b.point) + SquaredDistance(a.view, b.view)) /
-      2));
+  return SimilarityOfDistance(
+      std::sqrt(kPointShare * SquaredDistance(a.point, b.point) +
+                kViewShare * SquaredDistance(a.view, b.view)));
 }
 
 PackedSignature::PackedSignature(const ShapeSignature& signature)
     : chirality_(signature.chirality) {
   values_.reserve(kSignatureDims);
-  for (const std::vector<float>* part : {&signature.point, &signature.view}) {
-    for (const float value : *part) {
-      values_.push_back(static_cast<int16_t>(std::lround(value * kFixedPoint)));
+  const auto append = [this](const std::vector<float>& part, double share) {
+    const double scale = std::sqrt(share) * kFixedPoint;
+    for (const float value : part) {
+      values_.push_back(static_cast<int16_t>(
+          std::lround(static_cast<double>(value) * scale)));
     }
-  }
+  };
+  append(signature.point, kPointShare);
+  append(signature.view, kViewShare);
   squared_ = Dot(values_, values_);
 }
 
