@@ -77,7 +77,7 @@ TEST(PackedSignature, HoldsTheLongestProductsWithoutOverflow) {
   opposite.view[0] = -1;
   EXPECT_NEAR(
       SignatureSimilarity(PackedSignature(peak), PackedSignature(opposite)),
-      SimilarityOfDistance(2), 1e-9);
+      SimilarityOfDistance(2), 1e-6);
 }
 
 TEST(SimilarityScale, StartsAtOneAndFalls) {
