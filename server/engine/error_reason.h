@@ -44,11 +44,19 @@ enum class ErrorReason {
   kEtagMismatch = 47,
   kGraphVersionMismatch = 48,
   kGraphInvalid = 49,
+  kSnapshotNotFound = 50,
+  kSnapshotExists = 51,
+  kOperationNotFound = 52,
 
   kOverloaded = 60,
   kStoreFull = 61,
   kCreditExceeded = 62,
   kResponseTooLarge = 63,
+
+  kKeyMissing = 70,
+  kKeyInvalid = 71,
+  kKeyExpired = 72,
+  kPermissionDenied = 73,
 
   kDraining = 80,
   kIndexLoading = 81,

@@ -5,7 +5,9 @@
 //          the other services from the start; "liveness" as long as the
 //          process lives. All but "liveness" are NOT_SERVING from StartDrain.
 // Fails    kInvalidArgument  the address is malformed, or not loopback without
-//                            `insecure_remote`
+//                            TLS and callers that are known (keys or
+//                            client certificates), or `insecure_remote`;
+//                            the certificate files are unusable
 //          kUnavailable      the address cannot be bound
 // Thread-safe.
 #ifndef ARGMESH_SERVER_RPC_RPC_SERVER_H_
@@ -18,8 +20,10 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
-#include "server/rpc/event_log.h"
 #include "server/rpc/service_environment.h"
+#include "server/rpc/transport_security.h"
+#include "server/telemetry/gauge_sheet.h"
+#include "server/telemetry/telemetry.h"
 
 namespace grpc {
 class Channel;
@@ -30,9 +34,15 @@ namespace argmesh {
 struct RpcServerOptions {
   // HOST:PORT, [IPV6]:PORT; port 0 takes a free one.
   std::string listen = "127.0.0.1:7411";
-  // Bind other than loopback although nothing is encrypted or authenticated.
+  TlsOptions tls;
+  // Callers must show one of these; none: everybody who can connect is let in.
+  std::shared_ptr<const KeyRing> keys;
+  // Bind other than loopback although calls are not encrypted, or callers not
+  // known.
   bool insecure_remote = false;
   bool reflection = true;
+  // Must outlive the server; none: snapshots and verification are not served.
+  StoreAdmin* store_admin = nullptr;
   std::string version;
   ServiceLimits limits;
 };
@@ -42,14 +52,21 @@ absl::Status CheckListenAddress(const RpcServerOptions& options);
 
 class RpcServer {
  public:
-  // `engine` and `log` must outlive the server.
+  // `engine` and `telemetry` must outlive the server.
   static absl::StatusOr<std::unique_ptr<RpcServer>> Start(
-      const RpcServerOptions& options, Engine& engine, EventLog& log);
+      const RpcServerOptions& options, Engine& engine, Telemetry& telemetry);
   ~RpcServer();  // Shutdown at once
 
   // HOST:PORT with the bound port.
   const std::string& address() const;
   int port() const;
+
+  // From now on; what is in flight stays.
+  void SetLimits(const ServiceLimits& limits);
+  // None: every call is let in.
+  void SetKeys(std::shared_ptr<const KeyRing> keys);
+
+  void WriteGauges(GaugeSheet& sheet) const;
 
   // A channel to this server that needs no socket.
   std::shared_ptr<grpc::Channel> InProcessChannel();

@@ -15,6 +15,7 @@
 #include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/restore.h"
 
 namespace argmesh {
 namespace {
@@ -86,18 +87,25 @@ absl::StatusOr<std::shared_ptr<DataDirectory>> DataDirectory::Open(
   ARGMESH_ASSIGN_OR_RETURN(PosixFile lock, Lock(absolute));
   std::shared_ptr<DataDirectory> directory(
       new DataDirectory(absolute, options, std::move(lock)));
+  ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
+  ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->blobs_path()));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->incoming_path()));
+  ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->snapshots_path()));
   return directory;
 }
 
-absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
+absl::StatusOr<int64_t> DataDirectory::FreeBytes() const {
   struct statvfs status {};
   if (::statvfs(path_.c_str(), &status) != 0) {
     return FileError("statvfs", path_, errno);
   }
-  const auto free_bytes = static_cast<int64_t>(status.f_bavail) *
-                          static_cast<int64_t>(status.f_frsize);
+  return static_cast<int64_t>(status.f_bavail) *
+         static_cast<int64_t>(status.f_frsize);
+}
+
+absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t free_bytes, FreeBytes());
   if (free_bytes - extra_bytes >= options_.min_free_bytes) {
     return absl::OkStatus();
   }

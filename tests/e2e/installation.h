@@ -31,8 +31,11 @@ class Installation {
   const std::string& address() const { return address_; }
 
   // Starts the server and waits until it serves; at the address of before when
-  // it ran before. False with its log on stderr when it does not come up.
-  bool StartServer();
+  // it ran before, with `more` options. False with its log on stderr when it
+  // does not come up.
+  bool StartServer(const std::vector<std::string>& more = {});
+  // Waits until the server has logged `text`; false when it does not.
+  bool WaitForLog(const std::string& text);
   void SignalServer(int signal);
   bool ServerRuns();
   // What the running or last server has logged.
@@ -42,6 +45,8 @@ class Installation {
 
   // Runs `argmesh` with these words to its end.
   CommandOutcome Run(const std::vector<std::string>& words);
+  // Runs `argmeshd` with these words to its end, beside the server.
+  CommandOutcome RunServerProgram(const std::vector<std::string>& words);
   // Starts it and returns.
   ChildProcess Start(const std::vector<std::string>& words);
 
