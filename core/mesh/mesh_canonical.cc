@@ -48,6 +48,8 @@ Eigen::Matrix3d ComputeCovariance(const TriangleMesh& mesh) {
   return covariance;
 }
 
+double Sign(double value) { return value < 0 ? -1 : 1; }
+
 struct ThirdMoment {
   double value = 0;
   double magnitude = 0;  // of the absolute values
@@ -69,29 +71,31 @@ ThirdMoment ComputeThirdMoment(const TriangleMesh& mesh,
   return moment;
 }
 
-// Sets rotation and ambiguous. Returns 1 or -1 for each axis, the side of its
-// third moment.
-Eigen::Vector3d FindFrame(const TriangleMesh& unit, CanonicalMesh& canonical) {
+// Sets rotation and ambiguous. The two axes along which the surface is most
+// lopsided point to the side of their third moment; the third one follows, so
+// that a surface with one plane of symmetry has one frame.
+void FindFrame(const TriangleMesh& unit, CanonicalMesh& canonical) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       ComputeCovariance(unit));
   const Eigen::Vector3d variances = solver.eigenvalues();  // ascending
   const double gap =
       std::min(variances[2] - variances[1], variances[1] - variances[0]);
   canonical.ambiguous = !(gap > kSmallestGap * variances[2]);
-  for (int row = 0; row < 2; ++row) {
-    Eigen::Vector3d axis = solver.eigenvectors().col(2 - row);
+  Eigen::Vector3d skew;
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector3d axis = solver.eigenvectors().col(2 - row);
     const ThirdMoment moment = ComputeThirdMoment(unit, axis);
-    if (moment.value < 0) axis = -axis;
-    if (!(std::abs(moment.value) > kSmallestSkew * moment.magnitude)) {
-      canonical.ambiguous = true;
-    }
-    canonical.rotation.row(row) = axis.transpose();
+    canonical.rotation.row(row) = axis.transpose() * Sign(moment.value);
+    skew[row] =
+        moment.magnitude > 0 ? std::abs(moment.value) / moment.magnitude : 0;
   }
-  const Eigen::Vector3d x = canonical.rotation.row(0).transpose();
-  const Eigen::Vector3d y = canonical.rotation.row(1).transpose();
-  const Eigen::Vector3d z = x.cross(y);
-  canonical.rotation.row(2) = z.transpose();
-  return {1, 1, ComputeThirdMoment(unit, z).value < 0 ? -1.0 : 1.0};
+  Eigen::Index least = 0;
+  for (Eigen::Index row = 1; row < 3; ++row) {
+    if (skew[row] < skew[least]) least = row;
+  }
+  canonical.rotation.row(least) *= Sign(canonical.rotation.determinant());
+  skew[least] = 1;
+  if (!(skew.minCoeff() > kSmallestSkew)) canonical.ambiguous = true;
 }
 
 using GridPoint = std::array<int64_t, 3>;
@@ -116,17 +120,14 @@ std::vector<int32_t> SortedOrder(size_t count, const auto& is_before) {
   return order;
 }
 
-// Places along the sort direction. Its sides follow the third moments on all
-// three axes, so that a surface equal to its mirror image has one order.
-std::vector<double> SortKeys(const std::vector<GridPoint>& points,
-                             const Eigen::Vector3d& sides) {
+// Places along the sort direction.
+std::vector<double> SortKeys(const std::vector<GridPoint>& points) {
   std::vector<double> keys;
   keys.reserve(points.size());
   for (const GridPoint& point : points) {
     double key = 0;
     for (size_t axis = 0; axis < 3; ++axis) {
-      key += kSortDirection[axis] * sides[static_cast<Eigen::Index>(axis)] *
-             static_cast<double>(point[axis]);
+      key += kSortDirection[axis] * static_cast<double>(point[axis]);
     }
     keys.push_back(key);
   }
@@ -134,9 +135,8 @@ std::vector<double> SortKeys(const std::vector<GridPoint>& points,
 }
 
 // The number of each point among the distinct ones in their order.
-std::vector<int32_t> RankPoints(const std::vector<GridPoint>& points,
-                                const Eigen::Vector3d& sides) {
-  const std::vector<double> keys = SortKeys(points, sides);
+std::vector<int32_t> RankPoints(const std::vector<GridPoint>& points) {
+  const std::vector<double> keys = SortKeys(points);
   const std::vector<int32_t> order =
       SortedOrder(points.size(), [&](int32_t a, int32_t b) {
         return keys[Slot(a)] != keys[Slot(b)]
@@ -168,9 +168,8 @@ Triple TurnedFace(const TriangleMesh& mesh, int f,
 // Numbers of the vertices by position; those at one point by the first face,
 // in the order of positions, that has them.
 std::vector<int32_t> NumberVertices(const TriangleMesh& unit,
-                                    const std::vector<GridPoint>& points,
-                                    const Eigen::Vector3d& sides) {
-  const std::vector<int32_t> rank = RankPoints(points, sides);
+                                    const std::vector<GridPoint>& points) {
+  const std::vector<int32_t> rank = RankPoints(points);
   std::vector<Triple> faces;
   for (int f = 0; f < unit.num_faces(); ++f) {
     faces.push_back(TurnedFace(unit, f, rank));
@@ -198,11 +197,10 @@ std::vector<int32_t> NumberVertices(const TriangleMesh& unit,
 }
 
 // Sets mesh and source_face.
-void Renumber(const TriangleMesh& unit, const Eigen::Vector3d& sides,
-              CanonicalMesh& canonical) {
+void Renumber(const TriangleMesh& unit, CanonicalMesh& canonical) {
   const std::vector<GridPoint> points =
       RoundPositions(unit, canonical.rotation);
-  const std::vector<int32_t> number = NumberVertices(unit, points, sides);
+  const std::vector<int32_t> number = NumberVertices(unit, points);
   canonical.mesh.V.resize(unit.num_vertices(), 3);
   for (int v = 0; v < unit.num_vertices(); ++v) {
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -239,8 +237,8 @@ absl::StatusOr<CanonicalMesh> CanonicalizeMesh(const TriangleMesh& mesh) {
   RemoveUnusedVertices(unit);
   CanonicalMesh canonical;
   canonical.unit_area = NormalizeToUnitArea(unit);
-  const Eigen::Vector3d sides = FindFrame(unit, canonical);
-  Renumber(unit, sides, canonical);
+  FindFrame(unit, canonical);
+  Renumber(unit, canonical);
   return canonical;
 }
 
