@@ -4,6 +4,7 @@
 #include "core/abstraction/conductance.h"
 #include "core/abstraction/first_stage.h"
 #include "core/abstraction/mean_shift.h"
+#include "core/abstraction/voronoi_regions.h"
 #include "core/base/status_macros.h"
 #include "core/geometry/geodesic.h"
 #include "core/geometry/spectrum.h"
@@ -36,12 +37,6 @@ absl::StatusOr<Eigen::MatrixXd> EmbedSamples(
       (options.thickness_weight / std::log(2.0)) *
       input.features.shape_diameter.array().max(kMinDiameter).log().transpose();
   return joint;
-}
-
-int FarthestFromOrigin(const TriangleMesh& samples) {
-  Eigen::Index farthest = 0;
-  samples.V.rowwise().squaredNorm().maxCoeff(&farthest);
-  return static_cast<int>(farthest);
 }
 
 struct SuperSamples {

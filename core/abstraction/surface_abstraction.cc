@@ -7,6 +7,7 @@
 #include "absl/time/clock.h"
 #include "core/abstraction/voronoi_regions.h"
 #include "core/base/status_macros.h"
+#include "core/mesh/mesh_canonical.h"
 
 namespace argmesh {
 namespace {
@@ -32,7 +33,8 @@ class Stopwatch {
 
 struct Samples {
   RepairedMesh repaired;
-  ResampledMesh resampled;
+  CanonicalMesh canonical;  // of the repaired mesh
+  ResampledMesh resampled;  // of the canonical one
 };
 
 absl::StatusOr<Samples> SampleSurface(const TriangleMesh& mesh,
@@ -45,10 +47,12 @@ absl::StatusOr<Samples> SampleSurface(const TriangleMesh& mesh,
   Samples samples;
   for (size_t attempt = 0;; ++attempt) {
     ARGMESH_ASSIGN_OR_RETURN(samples.repaired, RepairMesh(mesh, repair));
+    ARGMESH_ASSIGN_OR_RETURN(samples.canonical,
+                             CanonicalizeMesh(samples.repaired.mesh));
     times.repair += stopwatch.Lap();
     ARGMESH_ASSIGN_OR_RETURN(
         samples.resampled,
-        ResampleMesh(samples.repaired.mesh, options.resample, stop));
+        ResampleMesh(samples.canonical.mesh, options.resample, stop));
     times.resample += stopwatch.Lap();
     const int count = samples.resampled.mesh.num_vertices();
     if (count <= most || attempt == std::size(kCoarseWelds)) return samples;
@@ -62,11 +66,31 @@ std::vector<int32_t> MapFacesToSamples(const TriangleMesh& mesh,
                                        const Samples& samples) {
   std::vector<int32_t> sample_of_face(static_cast<size_t>(mesh.num_faces()),
                                       -1);
-  for (size_t f = 0; f < samples.repaired.source_face.size(); ++f) {
-    sample_of_face[static_cast<size_t>(samples.repaired.source_face[f])] =
+  for (size_t f = 0; f < samples.canonical.source_face.size(); ++f) {
+    const auto repaired_face =
+        static_cast<size_t>(samples.canonical.source_face[f]);
+    sample_of_face[static_cast<size_t>(
+        samples.repaired.source_face[repaired_face])] =
         samples.resampled.sample_of_face[f];
   }
   return sample_of_face;
+}
+
+// From the repaired mesh's units to the samples, without the turn to the
+// canonical axes.
+UnitAreaTransform ComposeTransform(const CanonicalMesh& canonical,
+                                   const UnitAreaTransform& unit) {
+  const UnitAreaTransform& first = canonical.unit_area;
+  return {.centroid = first.centroid + canonical.rotation.transpose() *
+                                           unit.centroid / first.scale,
+          .scale = first.scale * unit.scale};
+}
+
+// Everything up to here saw the surface in its canonical axes, whichever way
+// the input was turned; what leaves is turned like the input.
+void TurnBack(const Eigen::Matrix3d& rotation, SurfaceAbstraction& surface) {
+  surface.samples.V = (surface.samples.V * rotation).eval();
+  surface.features.normals = (surface.features.normals * rotation).eval();
 }
 
 // For each sample the label of most faces that map to it; samples without a
@@ -159,7 +183,8 @@ absl::StatusOr<SurfaceAbstraction> AbstractSurface(
       BoundaryShare(surface.report, samples.repaired.mesh) <=
       options.max_boundary_share_smoothed;
   if (surface.report.smoothed) SmoothTaubin(surface.samples, options.smooth);
-  surface.transform = NormalizeToUnitArea(surface.samples);
+  surface.transform =
+      ComposeTransform(samples.canonical, NormalizeToUnitArea(surface.samples));
   surface.repaired = std::move(samples.repaired.mesh);
   surface.report.sample_vertices = surface.samples.num_vertices();
 
@@ -190,6 +215,7 @@ absl::StatusOr<SurfaceAbstraction> AbstractSurface(
     surface.num_uniform_cells = static_cast<int>(cells.seeds.size());
     surface.uniform_cell_of_sample = std::move(cells.cell_of_vertex);
   }
+  TurnBack(samples.canonical.rotation, surface);
   surface.times.decomposition = stopwatch.Lap();
   return surface;
 }

@@ -4,13 +4,16 @@
 
 namespace argmesh {
 
+int FarthestFromOrigin(const TriangleMesh& samples) {
+  const Eigen::VectorXf distance = samples.V.rowwise().norm().cast<float>();
+  return FindFarthest({distance.data(), static_cast<size_t>(distance.size())});
+}
+
 FarthestPointCells ComputeUniformCells(const TriangleMesh& samples,
                                        const SurfaceGraph& geodesic_graph,
                                        int count) {
-  Eigen::Index farthest = 0;
-  samples.V.rowwise().squaredNorm().maxCoeff(&farthest);
   return ComputeFarthestPointCells(geodesic_graph, count,
-                                   static_cast<int>(farthest));
+                                   FarthestFromOrigin(samples));
 }
 
 Decomposition DecomposeByVoronoi(const DecompositionInput& input,

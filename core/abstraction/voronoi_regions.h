@@ -14,6 +14,9 @@ namespace argmesh {
 Decomposition DecomposeByVoronoi(const DecompositionInput& input,
                                  const DecompositionOptions& options);
 
+// The first sample that is about as far from the origin as any.
+int FarthestFromOrigin(const TriangleMesh& samples);
+
 // `count` cells started from the sample farthest from the centroid.
 FarthestPointCells ComputeUniformCells(const TriangleMesh& samples,
                                        const SurfaceGraph& geodesic_graph,

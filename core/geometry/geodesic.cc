@@ -85,13 +85,19 @@ void RelaxFrom(const SurfaceGraph& graph, int32_t seed, int32_t cell,
   }
 }
 
-// The first vertex of the largest distance.
-int32_t Farthest(const std::vector<float>& distance) {
-  return static_cast<int32_t>(
-      std::max_element(distance.begin(), distance.end()) - distance.begin());
-}
+// Distances within this share of the largest count as largest.
+constexpr float kAboutLargest = 1e-3F;
 
 }  // namespace
+
+int32_t FindFarthest(std::span<const float> distance) {
+  const float largest = *std::max_element(distance.begin(), distance.end());
+  const float least = largest * (1 - kAboutLargest);
+  const auto first =
+      std::find_if(distance.begin(), distance.end(),
+                   [least](float value) { return value >= least; });
+  return static_cast<int32_t>(first - distance.begin());
+}
 
 FarthestPointCells ComputeFarthestPointCells(const SurfaceGraph& graph,
                                              int count, int first_seed) {
@@ -105,7 +111,7 @@ FarthestPointCells ComputeFarthestPointCells(const SurfaceGraph& graph,
     RelaxFrom(graph, seed, static_cast<int32_t>(cells.seeds.size()), queue,
               cells);
     cells.seeds.push_back(seed);
-    seed = Farthest(cells.distance);
+    seed = FindFarthest(cells.distance);
     if (!(cells.distance[static_cast<size_t>(seed)] > 0)) break;
   }
   return cells;
@@ -121,7 +127,7 @@ Eigen::VectorXd ComputeAverageGeodesicDistance(const SurfaceGraph& graph,
   // Starting at an end of the surface makes the samples depend less on which
   // vertex is the first.
   const int32_t start =
-      Farthest(ComputeFarthestPointCells(graph, 1, 0).distance);
+      FindFarthest(ComputeFarthestPointCells(graph, 1, 0).distance);
   const FarthestPointCells cells =
       ComputeFarthestPointCells(graph, num_sources, start);
   Eigen::VectorXd weights =

@@ -54,7 +54,11 @@ struct FarthestPointCells {
   std::vector<float> distance;          // of each vertex to its seed
 };
 
-// Greedy farthest-point sampling from `first_seed`; ties by index. Fewer than
+// The first vertex, of at least one, whose distance is within a thousandth of
+// the largest: a symmetric surface has several that rounding would tell apart.
+int32_t FindFarthest(std::span<const float> distance);
+
+// Greedy farthest-point sampling from `first_seed` by FindFarthest. Fewer than
 // `count` cells when every vertex is a seed. Cost O(count * n log n) at worst,
 // far less in practice. Thread-safe.
 FarthestPointCells ComputeFarthestPointCells(const SurfaceGraph& graph,

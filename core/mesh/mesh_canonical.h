@@ -2,14 +2,15 @@
 // numbered: copies become equal bit for bit in nearly all cases.
 //
 // The area centroid goes to the origin, the area to 1, the principal axes of
-// the surface's covariance to x, y, z (largest first; x and y point to the
-// side of the positive third moment, z = x cross y). Positions are rounded to
-// a grid of 2^-16, vertices sorted by position and faces by vertices.
+// the surface's covariance to x, y, z, largest first; the two along which it is
+// most lopsided point to the side of the positive third moment. Positions are
+// rounded to a grid of 2^-22, vertices sorted along an oblique direction and
+// faces by vertices.
 //
 // Input    any triangles; a mirrored copy is another shape.
-// Output   the faces' orientation and number are kept. Vertices that fall on
-//          the same grid point become one; a face can so repeat a vertex.
-//          Repair comes after it, not before: it splits vertices in place.
+// Output   the same vertices and faces in another order; unused vertices are
+//          dropped. Vertices that fall on the same grid point stay apart, so
+//          a manifold stays one; a face can so lose its area.
 // Ignores  translation, rotation, uniform scale, order of vertices and faces.
 // Repeats  a copy differs only where a coordinate lies within rounding of the
 //          middle between grid points, or where `ambiguous` is set.
@@ -37,7 +38,8 @@ struct CanonicalMesh {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   UnitAreaTransform unit_area;
   // The axes or their signs are not determined by the surface: two extents are
-  // nearly equal, or it is nearly symmetric. Copies can then differ.
+  // nearly equal, or it is nearly symmetric about two planes. Copies can then
+  // differ.
   bool ambiguous = false;
 };
 

@@ -22,9 +22,13 @@ constexpr double kPull = 0.05;           // towards the middle, of the weight
 constexpr double kSmallestCosine = 0.1;  // between a face's old and new normal
 // The stamp of a vertex that is gone; with any other it sums below zero.
 constexpr int32_t kGone = std::numeric_limits<int32_t>::min() / 2;
-// While there are more than so many times the target, about equal costs are
-// taken in the order of the vertices, which lie near each other in memory.
+// Costs within a band count as equal and go in the order of the vertices:
+// regular meshes are full of equal costs, which rounding must not tell apart.
+// While there are more than kCoarse times the target the bands are wide, since
+// vertices in order lie near each other in memory.
 constexpr int kCoarse = 4;
+constexpr double kWideBandsPerOctave = 8;
+constexpr double kBandsPerOctave = 64;
 constexpr int kStepsPerCheck = 4096;
 // An edge that was refused can become possible when its neighbourhood has
 // changed; looking again more often brings next to nothing.
@@ -107,11 +111,12 @@ class CandidateQueue {
   double bound_ = -1;
 };
 
-// The lower end of the eighth of an octave that a cost is in.
-double LowerBand(double cost) {
+// The lower end of the band that a cost is in.
+double LowerBand(double cost, double bands_per_octave) {
   int exponent = 0;
-  const double mantissa = std::frexp(cost, &exponent);
-  return std::ldexp(std::floor(16 * mantissa) / 16, exponent);
+  const double mantissa = std::frexp(cost, &exponent);  // .5 .. 1
+  const double bands = 2 * bands_per_octave;
+  return std::ldexp(std::floor(bands * mantissa) / bands, exponent);
 }
 
 struct Placement {
@@ -178,8 +183,9 @@ class EdgeCollapser {
   }
 
   Candidate MakeCandidate(int32_t a, int32_t b) const {
-    double cost = Place(a, b).cost;
-    if (alive_ / kCoarse > options_.target_vertices) cost = LowerBand(cost);
+    const bool coarse = alive_ / kCoarse > options_.target_vertices;
+    const double cost = LowerBand(
+        Place(a, b).cost, coarse ? kWideBandsPerOctave : kBandsPerOctave);
     return {cost, a, b, stamps_[Slot(a)] + stamps_[Slot(b)]};
   }
 

@@ -4,7 +4,8 @@
 // The cost of an edge is its squared length + quadric_weight * the mean
 // squared distance of the merged vertex to the planes it stands for; planes
 // through boundary edges hold the boundary in place.
-// Far above the target, costs within an eighth of an octave count as equal.
+// Costs within a 64th of an octave count as equal, far above the target those
+// within an eighth.
 //
 // Source   Garland, Heckbert, "Surface Simplification Using Quadric Error
 //          Metrics", SIGGRAPH 1997.

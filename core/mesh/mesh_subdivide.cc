@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,7 @@
 namespace argmesh {
 namespace {
 
+constexpr double kAboutEqual = 1e-3;
 constexpr double kTighten = 0.8;  // of the bound, where samples are too few
 // Halves 2^60 lengths, more than doubles of one mesh can differ in practice.
 constexpr int kMaxPasses = 120;
@@ -93,7 +95,13 @@ void CutFace(const TriangleMesh& mesh, const Triangle& face,
   const int32_t bc = middle[(odd + 1) % 3];
   const int32_t ca = middle[(odd + 2) % 3];
   out.push_back({ca, bc, c});
-  if (SquaredLength(mesh, a, bc) < SquaredLength(mesh, b, ca)) {
+  // The shorter diagonal; of about equal ones that from the lower number,
+  // which rounding does not decide.
+  const double from_a = SquaredLength(mesh, a, bc);
+  const double from_b = SquaredLength(mesh, b, ca);
+  const bool about_equal =
+      std::abs(from_a - from_b) < kAboutEqual * (from_a + from_b);
+  if (about_equal ? a < b : from_a < from_b) {
     out.push_back({a, b, bc});
     out.push_back({a, bc, ca});
   } else {

@@ -9,6 +9,7 @@
 
 #include "core/graph/graph_codec.h"
 #include "tests/support/status_matchers.h"
+#include "tests/support/test_meshes.h"
 #include "tests/unit/core/graph/sphere_surface.h"
 
 namespace argmesh {
@@ -125,6 +126,47 @@ TEST(BuildFaceLabels, FollowsTheSampleOfEachFace) {
   // Sample 4, the upper pole, is in octant 0; sample 5 in octant 4.
   EXPECT_THAT(labels.component, ElementsAre(0, -1, 4, 0, 0));
   EXPECT_THAT(labels.uniform, ElementsAre(0, -1, 0, 0, 0));
+}
+
+// Two balls of different size on a bent neck, regular as parametric meshes
+// are: equal costs and distances everywhere.
+TriangleMesh MakeUnevenDumbbell() {
+  TriangleMesh mesh = MakeDumbbell(24);
+  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+    const double z = mesh.V(v, 2);
+    mesh.V.row(v).head(2) *= 1 + 0.1 * z;
+    mesh.V(v, 0) += 0.1 * z * z;
+    mesh.V(v, 1) *= 0.9;
+  }
+  return mesh;
+}
+
+TEST(ComputeShapeGraph, SeesNoMotionScaleOrNumbering) {
+  AbstractionOptions options;
+  options.resample.vertex_budget = 600;
+  const TriangleMesh mesh = MakeUnevenDumbbell();
+  ASSERT_OK_AND_ASSIGN(const ComputedGraph original,
+                       ComputeShapeGraph(mesh, options));
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    ASSERT_OK_AND_ASSIGN(const ComputedGraph moved,
+                         ComputeShapeGraph(RandomlyMoved(mesh, seed), options));
+    ASSERT_EQ(LevelNames(moved.graph), LevelNames(original.graph));
+    const auto expect_equal = [](const ArgLevel& a, const ArgLevel& b) {
+      ASSERT_EQ(a.num_nodes(), b.num_nodes());
+      for (size_t i = 0; i < a.nodes.size(); ++i) {
+        EXPECT_NEAR(a.nodes[i].area, b.nodes[i].area, 1e-5);
+        EXPECT_NEAR(a.nodes[i].tuple.mean_mean, b.nodes[i].tuple.mean_mean,
+                    1e-4);
+      }
+      for (size_t i = 0; i < a.distances.size(); ++i) {
+        EXPECT_NEAR(a.distances[i], b.distances[i], 1e-4);
+      }
+    };
+    expect_equal(original.graph.uniform, moved.graph.uniform);
+    for (size_t l = 0; l < original.graph.levels.size(); ++l) {
+      expect_equal(original.graph.levels[l], moved.graph.levels[l]);
+    }
+  }
 }
 
 }  // namespace

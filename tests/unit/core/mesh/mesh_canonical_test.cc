@@ -18,6 +18,8 @@
 namespace argmesh {
 namespace {
 
+constexpr double kGridCell = 1.0 / 4194304;
+
 // A torus pulled out of every symmetry.
 TriangleMesh MakeLopsided(uint64_t seed, int major, int minor) {
   TriangleMesh mesh = MakeTorus(2, 0.7, major, minor);
@@ -86,17 +88,12 @@ TEST(CanonicalizeMesh, SaysHowItMovedTheMesh) {
   }
 }
 
-TEST(CanonicalizeMesh, SortsVerticesAndFaces) {
+TEST(CanonicalizeMesh, RoundsPositionsAndSortsFaces) {
   ASSERT_OK_AND_ASSIGN(const CanonicalMesh canonical,
                        CanonicalizeMesh(MakeLopsided(1, 24, 12)));
   const VertexMatrix& V = canonical.mesh.V;
-  for (Eigen::Index v = 1; v < V.rows(); ++v) {
-    EXPECT_TRUE(std::lexicographical_compare(V.row(v - 1).begin(),
-                                             V.row(v - 1).end(),
-                                             V.row(v).begin(), V.row(v).end()));
-  }
   for (Eigen::Index v = 0; v < V.rows(); ++v) {
-    const Eigen::RowVector3d grid = V.row(v) * 65536;
+    const Eigen::RowVector3d grid = V.row(v) / kGridCell;
     EXPECT_EQ(grid, grid.array().round().matrix());
   }
   const FaceMatrix& F = canonical.mesh.F;
@@ -107,6 +104,34 @@ TEST(CanonicalizeMesh, SortsVerticesAndFaces) {
           std::lexicographical_compare(F.row(f - 1).begin(), F.row(f - 1).end(),
                                        F.row(f).begin(), F.row(f).end()));
     }
+  }
+}
+
+// A regular sheet, whose vertices lie in rows along the axes, a little bent.
+TEST(CanonicalizeMesh, KeepsTheOrderWhenPositionsAreRounded) {
+  TriangleMesh mesh = MakeSheet(20);
+  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+    const double x = mesh.V(v, 0);
+    const double y = mesh.V(v, 1);
+    mesh.V(v, 2) = 0.1 * x * x + 0.03 * y * y * y;
+  }
+  mesh.V.col(0) *= 1.5;
+  TriangleMesh printed = RandomlyMoved(mesh, 12);
+  printed.V = printed.V.cast<float>().cast<double>().eval();
+  ASSERT_OK_AND_ASSIGN(const CanonicalMesh a, CanonicalizeMesh(mesh));
+  ASSERT_OK_AND_ASSIGN(const CanonicalMesh b, CanonicalizeMesh(printed));
+  EXPECT_LT((a.mesh.V - b.mesh.V).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_EQ(a.mesh.F, b.mesh.F);
+}
+
+TEST(CanonicalizeMesh, KeepsVerticesApartThatLieTogether) {
+  const TriangleMesh torus = MakeLopsided(2, 12, 6);
+  const TriangleMesh twice = Join(torus, torus);
+  ASSERT_OK_AND_ASSIGN(const CanonicalMesh canonical, CanonicalizeMesh(twice));
+  EXPECT_EQ(canonical.mesh.num_vertices(), 2 * torus.num_vertices());
+  for (const auto& ends :
+       ComputeMeshEdges(canonical.mesh.F, canonical.mesh.num_vertices()).ends) {
+    EXPECT_NE(canonical.mesh.V.row(ends[0]), canonical.mesh.V.row(ends[1]));
   }
 }
 
@@ -122,7 +147,7 @@ TEST(CanonicalizeMesh, IsACanonicalFormOfItself) {
   ASSERT_OK_AND_ASSIGN(const CanonicalMesh once,
                        CanonicalizeMesh(MakeLopsided(4, 24, 12)));
   ASSERT_OK_AND_ASSIGN(const CanonicalMesh twice, CanonicalizeMesh(once.mesh));
-  EXPECT_LT((once.mesh.V - twice.mesh.V).cwiseAbs().maxCoeff(), 4.0 / 65536);
+  EXPECT_LT((once.mesh.V - twice.mesh.V).cwiseAbs().maxCoeff(), 4 * kGridCell);
 }
 
 TEST(CanonicalizeMesh, RefusesWhatHasNoArea) {
