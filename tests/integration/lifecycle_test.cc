@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "google/longrunning/operations.grpc.pb.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -157,24 +156,6 @@ TEST(Lifecycle, SaysWhichMethodsAreNotServed) {
   ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchDeleteShapes);
   ExpectNotServed(server.ingest(), &v1::IngestService::Stub::ImportShapes);
   ExpectNotServed(server.search(), &v1::SearchService::Stub::BatchSearchShapes);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::CreateSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::GetSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::ListSnapshots);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::DeleteSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::VerifyStorage);
-  using Operations = google::longrunning::Operations;
-  const auto operations = Operations::NewStub(server.channel());
-  ExpectNotServed(*operations, &Operations::Stub::GetOperation);
-  ExpectNotServed(*operations, &Operations::Stub::ListOperations);
-  ExpectNotServed(*operations, &Operations::Stub::DeleteOperation);
-  ExpectNotServed(*operations, &Operations::Stub::CancelOperation);
-  ExpectNotServed(*operations, &Operations::Stub::WaitOperation);
-  {
-    grpc::ClientContext context;
-    const auto reader = server.admin().DownloadSnapshot(
-        &context, v1::DownloadSnapshotRequest());
-    EXPECT_FAILS(reader->Finish(), UNIMPLEMENTED, "METHOD_NOT_SERVED");
-  }
   {
     grpc::ClientContext context;
     const auto stream = server.search().StreamSearchShapes(&context);
@@ -188,8 +169,9 @@ TEST(Lifecycle, NeverSharesItsPort) {
   RpcServerOptions options;
   options.listen = first.rpc().address();
   std::ostringstream text;
-  EventLog log(text);
-  const auto second = RpcServer::Start(options, first.engine(), log);
+  const auto telemetry = Telemetry::Open({}, text);
+  ASSERT_TRUE(telemetry.ok()) << telemetry.status();
+  const auto second = RpcServer::Start(options, first.engine(), **telemetry);
   ASSERT_FALSE(second.ok());
   EXPECT_EQ(second.status().code(), absl::StatusCode::kUnavailable);
   EXPECT_THAT(std::string(second.status().message()),

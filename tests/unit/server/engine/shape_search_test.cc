@@ -39,9 +39,9 @@ TEST_F(ShapeSearchTest, FindsTheSameMeshFirstWithAFullScore) {
     ASSERT_OK_AND_ASSIGN(const SearchAnswer answer, engine_->Search(query));
     ASSERT_EQ(answer.matches.size(), 3U);
     EXPECT_EQ(answer.matches[0].shape.id, "bell");
-    EXPECT_EQ(answer.matches[0].match.score, 1);
+    EXPECT_EQ(answer.matches[0].score, 1);
     EXPECT_FALSE(answer.matches[0].match.pairs.empty());
-    EXPECT_GE(answer.matches[1].match.score, answer.matches[2].match.score);
+    EXPECT_GE(answer.matches[1].score, answer.matches[2].score);
     EXPECT_EQ(answer.stats.generation, 3);
     EXPECT_EQ(answer.stats.shapes_matched, 3);
     EXPECT_TRUE(answer.stats.exhaustive);

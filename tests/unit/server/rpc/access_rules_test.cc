@@ -1,6 +1,7 @@
 #include "server/rpc/access_rules.h"
 
 #include <google/protobuf/descriptor.h>
+#include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
 #include <set>

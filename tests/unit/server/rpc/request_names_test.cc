@@ -63,8 +63,8 @@ TEST(RequestNames, NamesACollectionThatIsToBeMade) {
 TEST(RequestNames, LeavesWhatIsNoNameAlone) {
   v1::CreateShapeRequest request;
   request.set_shape_id("x");
-  request.set_source_uri("collections/b");
-  (*request.mutable_metadata())["name"] = "collections/c";
+  request.mutable_shape()->set_source_uri("collections/b");
+  (*request.mutable_shape()->mutable_metadata())["name"] = "collections/c";
   request.mutable_mesh()->set_data("collections/d");
   EXPECT_THAT(RequestNames(request), IsEmpty());
 }

@@ -16,6 +16,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/random.h"
+#include "server/engine/error_reason.h"
 #include "server/engine/record_codec.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_catalog.h"
@@ -37,10 +38,17 @@ uint64_t NumberOf(const char* variable, uint64_t otherwise) {
   return text == nullptr ? otherwise : strtoull(text, nullptr, 10);
 }
 
+// Payloads have no order: the reason alone.
+std::string Text(const absl::Status& status) {
+  const ErrorReason reason = ReasonOf(status).value_or(ErrorReason::kInternal);
+  return status.ToString(absl::StatusToStringMode::kWithNoExtraData) + " " +
+         std::string(ErrorReasonName(reason));
+}
+
 // An answer as text: its bytes, or its error.
 template <typename T, typename Show>
 std::string Text(const absl::StatusOr<T>& answer, const Show& show) {
-  return answer.ok() ? show(*answer) : answer.status().ToString();
+  return answer.ok() ? show(*answer) : Text(answer.status());
 }
 
 std::string Digests(std::vector<Sha256Digest> digests) {
@@ -180,7 +188,8 @@ class Operations {
     patch.id = ShapeId();
     if (random_.Below(2) == 0) patch.display_name = "another name";
     if (random_.Below(2) == 0) patch.source_uri = "file:///elsewhere";
-    if (random_.Below(2) == 0) patch.metadata.emplace({{"key", "value"}});
+    if (random_.Below(2) == 0)
+      patch.metadata = std::map<std::string, std::string>{{"key", "value"}};
     patch.etag = EtagOfShape(model, patch.collection, patch.id);
     patch.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
@@ -243,7 +252,7 @@ class Operations {
 std::string Dump(Catalog& catalog) {
   std::string text;
   const auto collections = catalog.ListCollections("", 1000);
-  if (!collections.ok()) return collections.status().ToString();
+  if (!collections.ok()) return Text(collections.status());
   for (const CollectionRecord& collection : *collections) {
     text += SerializeCollectionRecord(collection);
     text += Text(catalog.ScanGraphs(collection.uid, "", 1000),
@@ -251,7 +260,7 @@ std::string Dump(Catalog& catalog) {
                    std::string all;
                    for (const ScannedGraph& g : graphs) {
                      all += SerializeShapeRecord(g.record) + g.graph +
-                            g.signature + g.window_words + g.status.ToString();
+                            g.signature + g.window_words + Text(g.status);
                    }
                    return all;
                  });
