@@ -22,7 +22,7 @@
 #include "core/base/status_macros.h"
 #include "server/engine/engine.h"
 #include "server/options.h"
-#include "server/rpc/event_log.h"
+#include "server/telemetry/event_log.h"
 #include "server/rpc/rpc_server.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/directory_mesh_store.h"

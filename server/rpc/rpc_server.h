@@ -18,7 +18,7 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
-#include "server/rpc/event_log.h"
+#include "server/telemetry/event_log.h"
 #include "server/rpc/service_environment.h"
 
 namespace grpc {

@@ -10,7 +10,7 @@
 #include "server/engine/request_rules.h"
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
-#include "server/rpc/event_log.h"
+#include "server/telemetry/event_log.h"
 
 namespace argmesh {
 

@@ -22,7 +22,7 @@
 #include "argmesh/v1/search_service.grpc.pb.h"
 #include "argmesh/v1/shape_service.grpc.pb.h"
 #include "server/engine/engine.h"
-#include "server/rpc/event_log.h"
+#include "server/telemetry/event_log.h"
 #include "server/rpc/rpc_server.h"
 
 namespace argmesh {

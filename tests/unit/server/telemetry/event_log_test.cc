@@ -1,4 +1,4 @@
-#include "server/rpc/event_log.h"
+#include "server/telemetry/event_log.h"
 
 #include <gtest/gtest.h>
 
