@@ -28,12 +28,14 @@ allow(core/synthesis core/base core/mesh core/synthesis)
 allow(server/engine core/base core/mesh core/abstraction core/graph
       core/matching core/signature core/containment server/engine)
 allow(server/storage core/base server/engine server/storage)
+allow(server/telemetry core/base server/engine server/telemetry)
 allow(server/rpc proto core/base core/mesh core/abstraction core/graph
-      core/matching server/engine server/rpc)
+      core/matching server/engine server/telemetry server/rpc)
 allow(client/picture core/base core/mesh client/picture)
 allow(client/cli core/base core/mesh core/evaluation core/synthesis proto client
       client/picture client/cli)
-allow(server proto core/base server server/engine server/storage server/rpc)
+allow(server proto core/base server server/engine server/storage
+      server/telemetry server/rpc)
 allow(client proto core/base client)
 
 # Third-party headers that only one place may see.
@@ -45,6 +47,7 @@ set(only_patterns
     "embree=core/geometry/[a-z_]*[.]cc|client/picture/[a-z_]*[.]cc"
     "Spectra/=core/geometry/[a-z_]*[.]cc"
     "CLI/=client/cli|server/options"
+    "prometheus/=server/telemetry"
     "asio=server/engine|server/rpc|server/main.cc")
 
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.h ${ROOT}/core/*.cc

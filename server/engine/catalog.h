@@ -23,6 +23,7 @@
 #include "server/engine/catalog_requests.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/shape_record.h"
+#include "server/engine/store_load.h"
 
 namespace argmesh {
 
@@ -92,6 +93,9 @@ class Catalog {
   // kRequestIdReused.
   virtual absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
       const RequestStamp& request) const = 0;
+
+  // Sizes and work done. Never fails: what cannot be read is 0.
+  virtual StoreLoad Load() const = 0;
 
   // Finishes the writes that wait, then refuses all others. Idempotent.
   virtual absl::Status Close() = 0;

@@ -152,6 +152,8 @@ absl::Status Engine::WaitUntilServing(const StopToken& stop) const {
   return parts_->gallery.WaitUntilServing(stop);
 }
 
+StoreLoad Engine::Store() const { return parts_->catalog->Load(); }
+
 std::vector<CollectionHealth> Engine::Health() const {
   return parts_->gallery.Health();
 }

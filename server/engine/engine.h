@@ -94,6 +94,8 @@ class Engine {
   absl::Status WaitUntilServing(const StopToken& stop = {}) const;
   std::vector<CollectionHealth> Health() const;  // by id
 
+  StoreLoad Store() const;
+
   // Refuses new work, waits for what runs, closes the catalog. Idempotent.
   absl::Status Close();
 

@@ -91,13 +91,17 @@ absl::StatusOr<std::shared_ptr<DataDirectory>> DataDirectory::Open(
   return directory;
 }
 
-absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
+absl::StatusOr<int64_t> DataDirectory::FreeBytes() const {
   struct statvfs status {};
   if (::statvfs(path_.c_str(), &status) != 0) {
     return FileError("statvfs", path_, errno);
   }
-  const auto free_bytes = static_cast<int64_t>(status.f_bavail) *
-                          static_cast<int64_t>(status.f_frsize);
+  return static_cast<int64_t>(status.f_bavail) *
+         static_cast<int64_t>(status.f_frsize);
+}
+
+absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t free_bytes, FreeBytes());
   if (free_bytes - extra_bytes >= options_.min_free_bytes) {
     return absl::OkStatus();
   }

@@ -41,6 +41,7 @@ class DataDirectory {
   std::filesystem::path blobs_path() const { return path_ / "blobs"; }
   std::filesystem::path incoming_path() const { return path_ / "incoming"; }
 
+  absl::StatusOr<int64_t> FreeBytes() const;
   // kResourceExhausted STORE_FULL when `extra_bytes` more would eat into the
   // space kept free.
   absl::Status CheckFreeSpace(int64_t extra_bytes) const;

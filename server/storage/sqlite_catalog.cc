@@ -35,6 +35,34 @@ SqliteCatalog::SqliteCatalog(std::shared_ptr<DataDirectory> directory,
       writer_(std::move(connection), options.writer),
       readers_(directory_->database_path(), options.max_readers) {}
 
+StoreLoad SqliteCatalog::Load() const {
+  const SqliteWriterLoad writer = writer_.Load();
+  StoreLoad load;
+  load.wal_bytes = writer.wal_bytes;
+  load.queued_writes = writer.queued;
+  load.commits = writer.commits;
+  load.changes = writer.changes;
+  load.commit_seconds = absl::ToDoubleSeconds(writer.commit_time);
+  load.free_bytes = directory_->FreeBytes().value_or(0);
+  load.writable = directory_->CheckFreeSpace(0).ok();
+  (void)readers_.Read([&load](SqliteConnection& connection) -> absl::Status {
+    ARGMESH_ASSIGN_OR_RETURN(const int64_t pages,
+                             connection.QueryInt("PRAGMA page_count"));
+    ARGMESH_ASSIGN_OR_RETURN(const int64_t page_bytes,
+                             connection.QueryInt("PRAGMA page_size"));
+    load.database_bytes = pages * page_bytes;
+    ARGMESH_ASSIGN_OR_RETURN(
+        SqliteStatement meshes,
+        connection.Query("SELECT COUNT(*), COALESCE(SUM(size_bytes), 0) "
+                         "FROM mesh"));
+    ARGMESH_RETURN_IF_ERROR(meshes.Step().status());
+    load.meshes = meshes.Int(0);
+    load.mesh_bytes = meshes.Int(1);
+    return absl::OkStatus();
+  });
+  return load;
+}
+
 SqliteCatalog::~SqliteCatalog() { (void)Close(); }
 
 absl::Status SqliteCatalog::Close() {

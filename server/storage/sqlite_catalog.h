@@ -75,6 +75,7 @@ class SqliteCatalog : public Catalog {
   absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
       const RequestStamp& request) const override;
 
+  StoreLoad Load() const override;
   absl::Status Close() override;
 
   SqliteWriterLoad WriterLoad() const { return writer_.Load(); }

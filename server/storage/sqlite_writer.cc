@@ -115,6 +115,7 @@ void SqliteWriter::RunGroup(Item first) {
     const std::lock_guard lock(mutex_);
     load_.commits += committed > 0 ? 1 : 0;
     load_.changes += committed;
+    load_.commit_time += absl::Now() - start;
     load_.wal_bytes = wal_pages_ * page_bytes_;
   }
   for (auto& [done, status] : group) done.done.set_value(std::move(status));

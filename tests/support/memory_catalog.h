@@ -55,6 +55,7 @@ class MemoryCatalog : public Catalog {
       const Sha256Digest& sha256) const override;
   absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
       const RequestStamp& request) const override;
+  StoreLoad Load() const override { return {}; }
   absl::Status Close() override;
 
   // The next PutShape answers `error` and changes nothing.
