@@ -59,8 +59,7 @@ Sha256Digest HashKeySecret(std::string_view secret) {
 
 absl::StatusOr<PresentedKey> ParseKeyText(std::string_view text) {
   const size_t dot = text.find('.');
-  if (dot == std::string_view::npos ||
-      text.size() - dot - 1 != kSecretDigits ||
+  if (dot == std::string_view::npos || text.size() - dot - 1 != kSecretDigits ||
       !IsIdentifier(text.substr(0, dot))) {
     return absl::InvalidArgumentError("the key is not ID.SECRET");
   }

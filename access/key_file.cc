@@ -55,8 +55,8 @@ absl::StatusOr<absl::Time> TimeOf(const Json& key, const char* field,
   absl::Time time;
   std::string error;
   if (!absl::ParseTime(absl::RFC3339_full, text, &time, &error)) {
-    return Invalid(where, std::string(field) + " \"" + text +
-                              "\" is no RFC 3339 time");
+    return Invalid(
+        where, std::string(field) + " \"" + text + "\" is no RFC 3339 time");
   }
   return time;
 }
@@ -108,10 +108,10 @@ absl::Status CheckFields(const Json& object,
 
 absl::StatusOr<ApiKey> KeyOf(const Json& json, size_t index) {
   std::string where = absl::StrFormat("key %d", index + 1);
-  ARGMESH_RETURN_IF_ERROR(CheckFields(json,
-                                      {"id", "sha256", "role", "collections",
-                                       "create_time", "expire_time"},
-                                      where));
+  ARGMESH_RETURN_IF_ERROR(CheckFields(
+      json,
+      {"id", "sha256", "role", "collections", "create_time", "expire_time"},
+      where));
   ApiKey key;
   ARGMESH_ASSIGN_OR_RETURN(key.id, TextOf(json, "id", where));
   if (!IsIdentifier(key.id)) {
@@ -119,16 +119,14 @@ absl::StatusOr<ApiKey> KeyOf(const Json& json, size_t index) {
   }
   where = "key \"" + key.id + "\"";
   ARGMESH_ASSIGN_OR_RETURN(key.secret_sha256, DigestOf(json, where));
-  ARGMESH_ASSIGN_OR_RETURN(const std::string role,
-                           TextOf(json, "role", where));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string role, TextOf(json, "role", where));
   const absl::StatusOr<AccessRole> parsed = ParseAccessRole(role);
   if (!parsed.ok()) {
     return Invalid(where, std::string(parsed.status().message()));
   }
   key.role = *parsed;
   ARGMESH_ASSIGN_OR_RETURN(key.collections, CollectionsOf(json, where));
-  ARGMESH_ASSIGN_OR_RETURN(key.create_time,
-                           TimeOf(json, "create_time", where));
+  ARGMESH_ASSIGN_OR_RETURN(key.create_time, TimeOf(json, "create_time", where));
   if (json.contains("expire_time")) {
     ARGMESH_ASSIGN_OR_RETURN(key.expire_time,
                              TimeOf(json, "expire_time", where));
@@ -157,14 +155,13 @@ absl::Status WriteWhole(const std::string& path, const std::string& text,
                         mode_t mode) {
   const std::string unfinished = path + ".part";
   ::unlink(unfinished.c_str());
-  const int descriptor = ::open(unfinished.c_str(),
-                                O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  const int descriptor =
+      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) return FileFailure("write", unfinished);
-  const bool written =
-      ::fchmod(descriptor, mode) == 0 &&
-      ::write(descriptor, text.data(), text.size()) ==
-          static_cast<ssize_t>(text.size()) &&
-      ::fsync(descriptor) == 0;
+  const bool written = ::fchmod(descriptor, mode) == 0 &&
+                       ::write(descriptor, text.data(), text.size()) ==
+                           static_cast<ssize_t>(text.size()) &&
+                       ::fsync(descriptor) == 0;
   const absl::Status status =
       written ? absl::OkStatus() : FileFailure("write", unfinished);
   ::close(descriptor);
@@ -224,8 +221,8 @@ absl::StatusOr<KeyRing> ReadKeyFile(const std::string& path) {
   if (!in) return absl::UnavailableError("cannot read " + path);
   absl::StatusOr<KeyRing> keys = ParseKeys(text);
   if (keys.ok()) return keys;
-  return absl::InvalidArgumentError(
-      path + ": " + std::string(keys.status().message()));
+  return absl::InvalidArgumentError(path + ": " +
+                                    std::string(keys.status().message()));
 }
 
 absl::Status WriteKeyFile(const std::string& path, const KeyRing& keys) {

@@ -50,6 +50,11 @@ enum class ErrorReason {
   kCreditExceeded = 62,
   kResponseTooLarge = 63,
 
+  kKeyMissing = 70,
+  kKeyInvalid = 71,
+  kKeyExpired = 72,
+  kPermissionDenied = 73,
+
   kDraining = 80,
   kIndexLoading = 81,
   kGenerationNotReached = 82,

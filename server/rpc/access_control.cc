@@ -22,10 +22,10 @@ absl::Status KeyInvalid() {
 
 absl::Status Denied(const Caller& caller, std::string_view method,
                     const std::string& why) {
-  return MakeError(ErrorReason::kPermissionDenied,
-                   absl::StrFormat("%s: %s", std::string(method), why),
-                   {{"method", std::string(method)},
-                    {"principal", caller.principal}});
+  return MakeError(
+      ErrorReason::kPermissionDenied,
+      absl::StrFormat("%s: %s", std::string(method), why),
+      {{"method", std::string(method)}, {"principal", caller.principal}});
 }
 
 std::string CertificateName(const grpc::ServerContextBase& context) {
@@ -40,9 +40,9 @@ std::string CertificateName(const grpc::ServerContextBase& context) {
 }  // namespace
 
 bool Caller::Covers(std::string_view collection) const {
-  return collections.empty() || std::find(collections.begin(),
-                                          collections.end(),
-                                          collection) != collections.end();
+  return collections.empty() ||
+         std::find(collections.begin(), collections.end(), collection) !=
+             collections.end();
 }
 
 void AccessControl::SetKeys(std::shared_ptr<const KeyRing> keys) {
@@ -73,8 +73,7 @@ absl::StatusOr<Caller> AccessControl::Authenticate(
 }
 
 absl::StatusOr<Caller> CallerOfBearer(const KeyRing& keys,
-                                      std::string_view header,
-                                      absl::Time now) {
+                                      std::string_view header, absl::Time now) {
   if (!header.starts_with(kBearer)) return KeyInvalid();
   const absl::StatusOr<PresentedKey> presented =
       ParseKeyText(header.substr(kBearer.size()));
@@ -93,9 +92,8 @@ absl::StatusOr<Caller> CallerOfBearer(const KeyRing& keys,
                                      absl::FormatTime(key.expire_time,
                                                       absl::UTCTimeZone())));
   }
-  return Caller{.principal = key.id,
-                .role = key.role,
-                .collections = key.collections};
+  return Caller{
+      .principal = key.id, .role = key.role, .collections = key.collections};
 }
 
 absl::Status CheckRole(const Caller& caller, std::string_view method) {

@@ -35,56 +35,57 @@ void AdminServiceImpl::FillServerInfo(
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::GetServerInfo(
-    grpc::CallbackServerContext* context, const v1::GetServerInfoRequest*,
+    grpc::CallbackServerContext* context,
+    const v1::GetServerInfoRequest* request,
     v1::GetServerInfoResponse* response) {
-  return UnaryReactor::Start(environment_, context,
+  return UnaryReactor::Start(environment_, context, request,
                              {"AdminService.GetServerInfo"},
-                             [this, response](const StopToken&) {
+                             [this, response](const UnaryCall&) {
                                FillServerInfo(response);
                                return absl::OkStatus();
                              });
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
-    grpc::CallbackServerContext* context, const v1::CreateSnapshotRequest*,
-    google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::CreateSnapshotRequest* request, google::longrunning::Operation*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "AdminService.CreateSnapshot");
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::GetSnapshot(
-    grpc::CallbackServerContext* context, const v1::GetSnapshotRequest*,
+    grpc::CallbackServerContext* context, const v1::GetSnapshotRequest* request,
     v1::Snapshot*) {
-  return UnaryReactor::NotServed(environment_, context,
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "AdminService.GetSnapshot");
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::ListSnapshots(
-    grpc::CallbackServerContext* context, const v1::ListSnapshotsRequest*,
-    v1::ListSnapshotsResponse*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::ListSnapshotsRequest* request, v1::ListSnapshotsResponse*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "AdminService.ListSnapshots");
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::DeleteSnapshot(
-    grpc::CallbackServerContext* context, const v1::DeleteSnapshotRequest*,
-    v1::DeleteSnapshotResponse*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::DeleteSnapshotRequest* request, v1::DeleteSnapshotResponse*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "AdminService.DeleteSnapshot");
 }
 
 grpc::ServerWriteReactor<v1::DownloadSnapshotResponse>*
 AdminServiceImpl::DownloadSnapshot(grpc::CallbackServerContext* context,
-                                   const v1::DownloadSnapshotRequest*) {
+                                   const v1::DownloadSnapshotRequest* request) {
   using Reactor = grpc::ServerWriteReactor<v1::DownloadSnapshotResponse>;
-  return StartReactor<UnservedStream<Reactor>>(environment_, context,
+  return StartReactor<UnservedStream<Reactor>>(environment_, context, request,
                                                "AdminService.DownloadSnapshot");
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
-    grpc::CallbackServerContext* context, const v1::VerifyStorageRequest*,
-    google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::VerifyStorageRequest* request, google::longrunning::Operation*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "AdminService.VerifyStorage");
 }
 

@@ -27,13 +27,13 @@ Admission::Admission(std::string what, int limit)
 absl::StatusOr<Admission::Ticket> Admission::Admit() {
   // Taken first and given back when too many: never more than the limit hold
   // a ticket.
-  if (used_.fetch_add(1) < limit_) return Ticket(&used_);
+  const int limit = limit_;
+  if (used_.fetch_add(1) < limit) return Ticket(&used_);
   used_.fetch_sub(1);
   return WithRetryDelay(
-      MakeError(
-          ErrorReason::kOverloaded,
-          absl::StrFormat("%d %s are in flight, the limit", limit_, what_),
-          {{"limit", absl::StrFormat("%d", limit_)}, {"what", what_}}),
+      MakeError(ErrorReason::kOverloaded,
+                absl::StrFormat("%d %s are in flight, the limit", limit, what_),
+                {{"limit", absl::StrFormat("%d", limit)}, {"what", what_}}),
       absl::Seconds(1));
 }
 

@@ -35,10 +35,14 @@ class Admission {
 
   absl::StatusOr<Ticket> Admit();
   int limit() const { return limit_; }
+  int used() const { return used_; }
+  const std::string& what() const { return what_; }
+  // Counts for the next Admit; those let in before stay.
+  void SetLimit(int limit) { limit_ = limit; }
 
  private:
   const std::string what_;
-  const int limit_;
+  std::atomic<int> limit_;
   std::atomic<int> used_{0};
 };
 

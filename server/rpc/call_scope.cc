@@ -4,10 +4,15 @@
 #include <exception>
 #include <new>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/rpc/request_names.h"
 #include "server/rpc/status.h"
 
 namespace argmesh {
@@ -27,34 +32,108 @@ std::string NextRequestId() {
   return absl::StrFormat("%08x-%d", run, counter.fetch_add(1) + 1);
 }
 
+// Of a name in the log; what a client sends may be megabytes.
+constexpr size_t kMaxLoggedName = 256;
+
+// A caller's header counts only as far as it is well-formed.
+TraceContext TraceOf(const grpc::CallbackServerContext& context) {
+  const auto& metadata = context.client_metadata();
+  const auto header = metadata.find("traceparent");
+  if (header == metadata.end()) return {};
+  return ParseTraceparent(
+      std::string_view(header->second.data(), header->second.size()));
+}
+
 }  // namespace
 
 CallScope::CallScope(ServiceEnvironment& environment,
                      grpc::CallbackServerContext* context, const char* method)
     : environment_(environment),
       context_(context),
-      method_(method),
-      stop_(stop_source_.get_token(), DeadlineOf(*context)) {}
+      stop_(stop_source_.get_token(), DeadlineOf(*context)) {
+  record_.method = method;
+  record_.peer = context->peer();
+  record_.trace = TraceOf(*context);
+  record_.begin = absl::Now();
+  const AccessRule* rule = FindAccessRule(method);
+  record_.writes = rule != nullptr && rule->writes;
+  environment.telemetry.CallStarted(method);
+}
+
+absl::Status CallScope::Authorize(const google::protobuf::Message* request) {
+  ARGMESH_ASSIGN_OR_RETURN(caller_,
+                           environment_.access.Authenticate(*context_));
+  {
+    const std::lock_guard lock(mutex_);
+    record_.principal = caller_.principal;
+  }
+  ARGMESH_RETURN_IF_ERROR(CheckRole(caller_, record_.method));
+  return request == nullptr ? absl::OkStatus() : AuthorizeMessage(*request);
+}
+
+absl::Status CallScope::AuthorizeMessage(
+    const google::protobuf::Message& message) {
+  const std::vector<std::string> names = RequestNames(message);
+  if (names.empty() && named_) return absl::OkStatus();
+  ARGMESH_RETURN_IF_ERROR(CheckNames(caller_, record_.method, names));
+  if (!named_ && !names.empty()) {
+    named_ = true;
+    const std::lock_guard lock(mutex_);
+    record_.resource = names.front().substr(0, kMaxLoggedName);
+  }
+  return absl::OkStatus();
+}
+
+void CallScope::MarkWorkBegin() {
+  const std::lock_guard lock(mutex_);
+  if (record_.work_begin == absl::InfiniteFuture()) {
+    record_.work_begin = absl::Now();
+  }
+}
 
 bool CallScope::MarkFinished() {
   const std::lock_guard lock(mutex_);
   return !std::exchange(finished_, true);
 }
 
-grpc::Status CallScope::Report(const absl::Status& status) {
-  return status.ok() ? grpc::Status::OK : ToGrpcStatus(ReportProto(status));
+google::rpc::Status CallScope::Describe(const absl::Status& status,
+                                        CallRecord& record) {
+  record.end = absl::Now();
+  if (status.ok()) return {};
+  record.request_id = NextRequestId();
+  google::rpc::Status report = ToProtoStatus(status, record.request_id);
+  record.code = static_cast<absl::StatusCode>(report.code());
+  record.reason =
+      ErrorReasonName(ReasonOf(status).value_or(ErrorReason::kInternal));
+  if (record.code == absl::StatusCode::kInternal ||
+      record.code == absl::StatusCode::kDataLoss) {
+    record.internals = status.ToString();
+  }
+  return report;
 }
 
-google::rpc::Status CallScope::ReportProto(const absl::Status& status) {
-  const std::string request_id = NextRequestId();
-  google::rpc::Status report = ToProtoStatus(status, request_id);
-  if (report.code() == static_cast<int>(absl::StatusCode::kInternal) ||
-      report.code() == static_cast<int>(absl::StatusCode::kDataLoss)) {
-    environment_.log.Write(LogLevel::kError, "call failed",
-                           {{"method", std::string(method_)},
-                            {"request_id", request_id},
-                            {"error", status.ToString()}});
+grpc::Status CallScope::Report(const absl::Status& status) {
+  CallRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    record = record_;
   }
+  const grpc::Status report = ToGrpcStatus(Describe(status, record));
+  environment_.telemetry.CallFinished(record);
+  return report;
+}
+
+google::rpc::Status CallScope::ReportItem(const ShapeRef& item,
+                                          const absl::Status& status) {
+  CallRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    record = record_;
+  }
+  record.resource = absl::StrCat("collections/", item.collection, "/shapes/",
+                                 item.id.substr(0, kMaxLoggedName));
+  const google::rpc::Status report = Describe(status, record);
+  environment_.telemetry.ItemFinished(record);
   return report;
 }
 

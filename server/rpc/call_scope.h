@@ -1,12 +1,13 @@
 // What every call has, whatever its kind: a place in the registry, a stop
-// token of its deadline and cancellation, an id for the log, and a flag that
-// it has been finished.
+// token of its deadline and cancellation, its caller, what is recorded of it,
+// and a flag that it has been finished.
 //
 // The mutex guards the state of the reactor that owns the scope; a reactor
 // starts its reads and writes under it, after it has seen finished() false.
 #ifndef ARGMESH_SERVER_RPC_CALL_SCOPE_H_
 #define ARGMESH_SERVER_RPC_CALL_SCOPE_H_
 
+#include <google/protobuf/message.h>
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
@@ -18,7 +19,9 @@
 #include "absl/time/time.h"
 #include "core/base/stop_token.h"
 #include "google/rpc/status.pb.h"
+#include "server/rpc/access_control.h"
 #include "server/rpc/service_environment.h"
+#include "server/telemetry/call_record.h"
 
 namespace argmesh {
 
@@ -41,17 +44,34 @@ class CallScope {
   // True the first time only. Takes mutex().
   bool MarkFinished();
 
-  // What the client sees. An internal error goes to the log.
+  // Whether the caller may make this call; `request` is null where the client
+  // streams. Once, before anything else of the call is done.
+  absl::Status Authorize(const google::protobuf::Message* request);
+  // The same for a message of a stream. Only the first has to name a
+  // collection.
+  absl::Status AuthorizeMessage(const google::protobuf::Message& message);
+  const Caller& caller() const { return caller_; }
+
+  // The call, or a part of it, has its turn on a pool. The first time counts.
+  void MarkWorkBegin();
+
+  // What the client sees of the call's end, and of an item of a stream.
+  // Telemetry is told.
   grpc::Status Report(const absl::Status& status);
-  google::rpc::Status ReportProto(const absl::Status& status);
+  google::rpc::Status ReportItem(const ShapeRef& item,
+                                 const absl::Status& status);
 
   // The status of the exception that is being handled.
   static absl::Status CurrentException();
 
  private:
+  google::rpc::Status Describe(const absl::Status& status, CallRecord& record);
+
   ServiceEnvironment& environment_;
   grpc::CallbackServerContext* context_;
-  const char* method_;
+  Caller caller_;
+  bool named_ = false;  // a message of the call has named a resource
+  CallRecord record_;   // with mutex_ once the call has begun
   std::stop_source stop_source_;
   StopToken stop_;
   std::mutex mutex_;

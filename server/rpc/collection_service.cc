@@ -11,8 +11,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::CreateCollection(
     grpc::CallbackServerContext* context,
     const v1::CreateCollectionRequest* request, v1::Collection* response) {
   return UnaryReactor::Start(
-      environment_, context, {"CollectionService.CreateCollection"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"CollectionService.CreateCollection"},
+      [this, request, response](const UnaryCall& call) -> absl::Status {
         NewCollection spec;
         ARGMESH_RETURN_IF_ERROR(
             CheckResourceId("collection_id", request->collection_id()));
@@ -21,7 +21,7 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::CreateCollection(
         ARGMESH_ASSIGN_OR_RETURN(
             spec.settings,
             FromProto("collection.settings", request->collection().settings()));
-        spec.request.request_id = request->request_id();
+        spec.request = {call.caller.principal, request->request_id()};
         ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord record,
                                  environment_.engine.CreateCollection(spec));
         *response = ToProto(record);
@@ -33,8 +33,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::GetCollection(
     grpc::CallbackServerContext* context,
     const v1::GetCollectionRequest* request, v1::Collection* response) {
   return UnaryReactor::Start(
-      environment_, context, {"CollectionService.GetCollection"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"CollectionService.GetCollection"},
+      [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseCollectionName("name", request->name()));
         ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord record,
@@ -49,14 +49,16 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::ListCollections(
     const v1::ListCollectionsRequest* request,
     v1::ListCollectionsResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, {"CollectionService.ListCollections"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"CollectionService.ListCollections"},
+      [this, request, response](const UnaryCall& call) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const CollectionPage page,
                                  environment_.engine.ListCollections(
                                      {.page_size = request->page_size(),
                                       .page_token = request->page_token(),
                                       .max_bytes = kMaxAnswerBytes}));
         for (const CollectionRecord& record : page.collections) {
+          // A page may hold fewer than asked for, even none.
+          if (!call.caller.Covers(record.id)) continue;
           *response->add_collections() = ToProto(record);
         }
         response->set_next_page_token(page.next_page_token);
@@ -65,9 +67,9 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::ListCollections(
 }
 
 grpc::ServerUnaryReactor* CollectionServiceImpl::UpdateCollection(
-    grpc::CallbackServerContext* context, const v1::UpdateCollectionRequest*,
-    v1::Collection*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::UpdateCollectionRequest* request, v1::Collection*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "CollectionService.UpdateCollection");
 }
 
@@ -75,8 +77,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(
     grpc::CallbackServerContext* context,
     const v1::DeleteCollectionRequest* request, v1::DeleteCollectionResponse*) {
   return UnaryReactor::Start(
-      environment_, context, {"CollectionService.DeleteCollection"},
-      [this, request](const StopToken&) -> absl::Status {
+      environment_, context, request, {"CollectionService.DeleteCollection"},
+      [this, request](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseCollectionName("name", request->name()));
         return environment_.engine.DeleteCollection(
@@ -85,9 +87,10 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(
 }
 
 grpc::ServerUnaryReactor* CollectionServiceImpl::ReindexCollection(
-    grpc::CallbackServerContext* context, const v1::ReindexCollectionRequest*,
+    grpc::CallbackServerContext* context,
+    const v1::ReindexCollectionRequest* request,
     google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context,
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "CollectionService.ReindexCollection");
 }
 

@@ -17,7 +17,8 @@ constexpr int64_t kChunkBytes = 256 << 10;
 DownloadReactor::DownloadReactor(ServiceEnvironment& environment,
                                  grpc::CallbackServerContext* context,
                                  const v1::DownloadMeshRequest* request)
-    : GuardedReactor(environment, context, "ShapeService.DownloadMesh"),
+    : GuardedReactor(environment, context, request,
+                     "ShapeService.DownloadMesh"),
       request_(request) {}
 
 void DownloadReactor::Begin() {
@@ -90,7 +91,7 @@ void DownloadReactor::OnTick(absl::Time now) {
   const std::lock_guard lock(scope().mutex());
   // A write that nobody takes blocks the end of the call too: only a
   // cancellation gets through.
-  if (now - writing_since_ > environment().limits.stream_idle_timeout) {
+  if (now - writing_since_ > environment().stream_idle_timeout()) {
     scope().context()->TryCancel();
   }
 }

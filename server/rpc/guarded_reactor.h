@@ -2,12 +2,16 @@
 //
 // gRPC's callback API never finishes a call whose reaction throws, and then
 // hangs Shutdown. So every reaction is caught here; the call is finished
-// exactly once; it is entered in the registry and left again; cancellation and
-// the deadline reach the StopToken; and the reactor lives as long as gRPC or a
-// task on a pool needs it.
+// exactly once; it is entered in the registry and left again; the caller's
+// rights are checked before anything is done; cancellation and the deadline
+// reach the StopToken; telemetry learns how the call ended; and the reactor
+// lives as long as gRPC or a task on a pool needs it.
 //
 //   class DownloadReactor : public GuardedReactor<grpc::ServerWriteReactor<R>>
-//   return StartReactor<DownloadReactor>(environment, context, ...);
+//   return StartReactor<DownloadReactor>(environment, context, request, ...);
+//
+// `request` is null only where the client streams: ReadingReactor then checks
+// every message.
 //
 // A subclass overrides Begin and the protected reactions of its kind; all run
 // outside the lock. After FinishOnce it starts nothing more.
@@ -36,17 +40,22 @@ class GuardedReactor
       public std::enable_shared_from_this<GuardedReactor<Base>> {
  public:
   GuardedReactor(ServiceEnvironment& environment,
-                 grpc::CallbackServerContext* context, const char* method)
-      : held_(environment.calls), scope_(environment, context, method) {}
+                 grpc::CallbackServerContext* context,
+                 const google::protobuf::Message* request, const char* method)
+      : held_(environment.calls),
+        request_(request),
+        scope_(environment, context, method) {}
 
   // Called once, by StartReactor.
   void Enter() {
     self_ = this->shared_from_this();
     Guard([this] {
-      if (absl::Status status = environment().calls.Enter(this); !status.ok()) {
-        FinishOnce(status);
-      } else {
+      absl::Status status = environment().calls.Enter(this);
+      status.Update(scope_.Authorize(request_));
+      if (status.ok()) {
         Begin();
+      } else {
+        FinishOnce(status);
       }
     });
   }
@@ -145,6 +154,7 @@ class GuardedReactor
   }
 
   void RunStep(const PoolStep& step, const absl::Status& admission) {
+    scope_.MarkWorkBegin();
     if (const absl::Status stopped = scope_.stop().Check(); !stopped.ok()) {
       FinishOnce(stopped);
     } else if (admission.ok()) {
@@ -173,6 +183,7 @@ class GuardedReactor
   };
 
   const Held held_;
+  const google::protobuf::Message* const request_;
   CallScope scope_;
   Admission::Ticket ticket_;              // with the scope's mutex
   std::vector<PoolStep> waiting_;         // with the scope's mutex

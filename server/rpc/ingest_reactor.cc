@@ -43,7 +43,8 @@ absl::Status Incomplete(int64_t announced, int64_t received) {
 
 IngestReactor::IngestReactor(ServiceEnvironment& environment,
                              grpc::CallbackServerContext* context)
-    : ReadingReactor(environment, context, "IngestService.IngestShapes") {}
+    : ReadingReactor(environment, context, nullptr,
+                     "IngestService.IngestShapes") {}
 
 void IngestReactor::Begin() {
   if (AdmitTo(environment().ingests)) StartNextRead();
@@ -121,6 +122,7 @@ absl::Status IngestReactor::BeginItem(const v1::IngestItem& item) {
   ARGMESH_RETURN_IF_ERROR(TakeCredit(item));
   current_ = std::make_shared<Item>();
   current_->key = item.key();
+  current_->shape_id = item.shape_id();
   current_->credit_bytes = std::max<int64_t>(item.size_bytes(), 0);
   if (const absl::Status started = StartItem(item); !started.ok()) {
     SendResult(*current_, started);
@@ -154,6 +156,7 @@ absl::Status IngestReactor::StartItem(const v1::IngestItem& item) {
   ARGMESH_ASSIGN_OR_RETURN(current_->upload,
                            engine().StartUpload(announced.upload));
   current_->shape = std::move(announced.shape);
+  current_->shape.request.principal = scope().caller().principal;
   current_->size_bytes = announced.upload.size_bytes;
   return absl::OkStatus();
 }
@@ -248,11 +251,13 @@ void IngestReactor::SendResult(const Item& item,
   v1::IngestShapesResponse message;
   v1::IngestItemResult& result = *message.mutable_result();
   result.set_key(item.key);
+  google::rpc::Status report =
+      scope().ReportItem({collection_, item.shape_id}, added.status());
   if (added.ok()) {
     *result.mutable_shape() = ToProto(added->record);
     result.set_already_stored(added->already_stored);
   } else {
-    *result.mutable_error() = scope().ReportProto(added.status());
+    *result.mutable_error() = std::move(report);
   }
   {
     const std::lock_guard lock(scope().mutex());
@@ -319,7 +324,7 @@ void IngestReactor::FinishWhenDone() {
 
 void IngestReactor::OnTick(absl::Time now) {
   ResubmitWaiting();
-  const absl::Duration limit = environment().limits.stream_idle_timeout;
+  const absl::Duration limit = environment().stream_idle_timeout();
   bool idle = false;
   {
     const std::lock_guard lock(scope().mutex());

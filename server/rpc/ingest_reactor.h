@@ -38,6 +38,7 @@ class IngestReactor final
  private:
   struct Item {
     std::string key;
+    std::string shape_id;  // as it came
     int64_t credit_bytes = 0;
     NewShape shape;
     int64_t size_bytes = 0;

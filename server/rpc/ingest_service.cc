@@ -11,9 +11,9 @@ IngestServiceImpl::IngestShapes(grpc::CallbackServerContext* context) {
 }
 
 grpc::ServerUnaryReactor* IngestServiceImpl::ImportShapes(
-    grpc::CallbackServerContext* context, const v1::ImportShapesRequest*,
-    google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::ImportShapesRequest* request, google::longrunning::Operation*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "IngestService.ImportShapes");
 }
 

@@ -1,5 +1,6 @@
 // The base of reactors that read a stream: one message after the other, and
-// it is noticed when none comes.
+// it is noticed when none comes. The caller's rights are checked for every
+// message.
 #ifndef ARGMESH_SERVER_RPC_READING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_READING_REACTOR_H_
 
@@ -21,7 +22,16 @@ class ReadingReactor : public GuardedReactor<Base> {
 
   void OnReadDone(bool ok) final {
     reading_since_.store(kNotReading);
-    this->Guard([&] { ok ? Received(request_) : ReadsEnded(); });
+    this->Guard([&] {
+      if (!ok) {
+        ReadsEnded();
+      } else if (absl::Status status = this->scope().AuthorizeMessage(request_);
+                 !status.ok()) {
+        this->FinishOnce(status);
+      } else {
+        Received(request_);
+      }
+    });
   }
 
  protected:

@@ -115,8 +115,8 @@ class HealthBoard {
 
 class RpcServer::Impl {
  public:
-  Impl(const RpcServerOptions& options, Engine& engine, EventLog& log)
-      : environment_(engine, log, options.version, options.limits),
+  Impl(const RpcServerOptions& options, Engine& engine, Telemetry& telemetry)
+      : environment_(engine, telemetry, options.version, options.limits),
         collections_(environment_),
         shapes_(environment_),
         ingest_(environment_),
@@ -181,6 +181,8 @@ class RpcServer::Impl {
   void StopAdvertising() { health_->SetDraining(); }
   const std::string& address() const { return address_; }
   int port() const { return port_; }
+  ServiceEnvironment& environment() { return environment_; }
+  void WriteGauges(GaugeSheet& sheet) const;
   std::shared_ptr<grpc::Channel> InProcessChannel() {
     return server_->InProcessChannel(grpc::ChannelArguments());
   }
@@ -201,6 +203,23 @@ class RpcServer::Impl {
   std::unique_ptr<grpc::Server> server_;
 };
 
+void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
+  sheet.Gauge("argmesh_build_info", "1, with the version as a label.", 1,
+              {{"version", environment_.version}});
+  sheet.Gauge("argmesh_calls_in_flight", "Calls that have not ended.",
+              environment_.calls.in_flight());
+  sheet.Gauge("argmesh_draining", "1 once the server is going down.",
+              environment_.calls.draining() ? 1 : 0);
+  for (const Admission* admission :
+       {&environment_.searches, &environment_.uploads, &environment_.ingests}) {
+    const GaugeSheet::Labels labels = {{"class", admission->what()}};
+    sheet.Gauge("argmesh_admission_used", "Calls of a class in flight.",
+                admission->used(), labels);
+    sheet.Gauge("argmesh_admission_limit", "How many there may be.",
+                admission->limit(), labels);
+  }
+}
+
 absl::Status CheckListenAddress(const RpcServerOptions& options) {
   ARGMESH_ASSIGN_OR_RETURN(const ListenAddress address,
                            ParseListenAddress(options.listen));
@@ -213,11 +232,11 @@ absl::Status CheckListenAddress(const RpcServerOptions& options) {
 }
 
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(
-    const RpcServerOptions& options, Engine& engine, EventLog& log) {
+    const RpcServerOptions& options, Engine& engine, Telemetry& telemetry) {
   ARGMESH_RETURN_IF_ERROR(CheckListenAddress(options));
   ARGMESH_ASSIGN_OR_RETURN(ListenAddress address,
                            ParseListenAddress(options.listen));
-  auto impl = std::make_unique<Impl>(options, engine, log);
+  auto impl = std::make_unique<Impl>(options, engine, telemetry);
   ARGMESH_RETURN_IF_ERROR(impl->Listen(options, std::move(address)));
   return std::unique_ptr<RpcServer>(new RpcServer(std::move(impl)));
 }
@@ -229,6 +248,15 @@ const std::string& RpcServer::address() const { return impl_->address(); }
 int RpcServer::port() const { return impl_->port(); }
 std::shared_ptr<grpc::Channel> RpcServer::InProcessChannel() {
   return impl_->InProcessChannel();
+}
+void RpcServer::SetLimits(const ServiceLimits& limits) {
+  impl_->environment().SetLimits(limits);
+}
+void RpcServer::SetKeys(std::shared_ptr<const KeyRing> keys) {
+  impl_->environment().access.SetKeys(std::move(keys));
+}
+void RpcServer::WriteGauges(GaugeSheet& sheet) const {
+  impl_->WriteGauges(sheet);
 }
 void RpcServer::StopAdvertising() { impl_->StopAdvertising(); }
 bool RpcServer::Shutdown(absl::Time deadline) {

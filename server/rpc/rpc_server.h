@@ -18,8 +18,9 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
-#include "server/telemetry/event_log.h"
 #include "server/rpc/service_environment.h"
+#include "server/telemetry/gauge_sheet.h"
+#include "server/telemetry/telemetry.h"
 
 namespace grpc {
 class Channel;
@@ -42,14 +43,21 @@ absl::Status CheckListenAddress(const RpcServerOptions& options);
 
 class RpcServer {
  public:
-  // `engine` and `log` must outlive the server.
+  // `engine` and `telemetry` must outlive the server.
   static absl::StatusOr<std::unique_ptr<RpcServer>> Start(
-      const RpcServerOptions& options, Engine& engine, EventLog& log);
+      const RpcServerOptions& options, Engine& engine, Telemetry& telemetry);
   ~RpcServer();  // Shutdown at once
 
   // HOST:PORT with the bound port.
   const std::string& address() const;
   int port() const;
+
+  // From now on; what is in flight stays.
+  void SetLimits(const ServiceLimits& limits);
+  // None: every call is let in.
+  void SetKeys(std::shared_ptr<const KeyRing> keys);
+
+  void WriteGauges(GaugeSheet& sheet) const;
 
   // A channel to this server that needs no socket.
   std::shared_ptr<grpc::Channel> InProcessChannel();

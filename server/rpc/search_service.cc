@@ -50,10 +50,10 @@ grpc::ServerUnaryReactor* SearchServiceImpl::SearchShapes(
   const WorkClass work_class =
       request->has_mesh() ? WorkClass::kCompute : WorkClass::kSearch;
   return UnaryReactor::Start(
-      environment_, context,
+      environment_, context, request,
       {"SearchService.SearchShapes", work_class, &environment_.searches},
-      [this, request, response](const StopToken& stop) {
-        return Search(environment_.engine, *request, stop, response);
+      [this, request, response](const UnaryCall& call) {
+        return Search(environment_.engine, *request, call.stop, response);
       });
 }
 
@@ -63,13 +63,14 @@ SearchServiceImpl::StreamSearchShapes(grpc::CallbackServerContext* context) {
   using Reactor = grpc::ServerBidiReactor<v1::StreamSearchShapesRequest,
                                           v1::StreamSearchShapesResponse>;
   return StartReactor<UnservedStream<Reactor>>(
-      environment_, context, "SearchService.StreamSearchShapes");
+      environment_, context, nullptr, "SearchService.StreamSearchShapes");
 }
 
 grpc::ServerUnaryReactor* SearchServiceImpl::BatchSearchShapes(
-    grpc::CallbackServerContext* context, const v1::BatchSearchShapesRequest*,
+    grpc::CallbackServerContext* context,
+    const v1::BatchSearchShapesRequest* request,
     v1::BatchSearchShapesResponse*) {
-  return UnaryReactor::NotServed(environment_, context,
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "SearchService.BatchSearchShapes");
 }
 
@@ -80,12 +81,12 @@ grpc::ServerUnaryReactor* SearchServiceImpl::CompareShapes(
   const bool has_mesh =
       request->query().has_mesh() || request->target().has_mesh();
   return UnaryReactor::Start(
-      environment_, context,
+      environment_, context, request,
       {"SearchService.CompareShapes",
        has_mesh ? WorkClass::kCompute : WorkClass::kSearch,
        &environment_.searches},
-      [this, request, response](const StopToken& stop) {
-        return Compare(environment_.engine, *request, stop, response);
+      [this, request, response](const UnaryCall& call) {
+        return Compare(environment_.engine, *request, call.stop, response);
       });
 }
 

@@ -2,15 +2,17 @@
 #ifndef ARGMESH_SERVER_RPC_SERVICE_ENVIRONMENT_H_
 #define ARGMESH_SERVER_RPC_SERVICE_ENVIRONMENT_H_
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
 #include "server/engine/request_rules.h"
+#include "server/rpc/access_control.h"
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
-#include "server/telemetry/event_log.h"
+#include "server/telemetry/telemetry.h"
 
 namespace argmesh {
 
@@ -32,24 +34,39 @@ struct ServiceLimits {
 };
 
 struct ServiceEnvironment {
-  ServiceEnvironment(Engine& the_engine, EventLog& the_log,
+  ServiceEnvironment(Engine& the_engine, Telemetry& the_telemetry,
                      std::string the_version, const ServiceLimits& the_limits)
       : engine(the_engine),
-        log(the_log),
+        telemetry(the_telemetry),
         version(std::move(the_version)),
         limits(the_limits),
+        stream_idle_ms(
+            absl::ToInt64Milliseconds(the_limits.stream_idle_timeout)),
         searches("searches", the_limits.max_inflight_searches),
         uploads("uploads", the_limits.max_inflight_uploads),
         ingests("ingest streams", the_limits.max_inflight_ingests) {}
 
+  absl::Duration stream_idle_timeout() const {
+    return absl::Milliseconds(stream_idle_ms.load());
+  }
+  // Of all but the credit of ingest streams; for the next calls.
+  void SetLimits(const ServiceLimits& changed) {
+    stream_idle_ms = absl::ToInt64Milliseconds(changed.stream_idle_timeout);
+    searches.SetLimit(changed.max_inflight_searches);
+    uploads.SetLimit(changed.max_inflight_uploads);
+    ingests.SetLimit(changed.max_inflight_ingests);
+  }
+
   Engine& engine;
-  EventLog& log;
+  Telemetry& telemetry;
   const std::string version;
   const ServiceLimits limits;
+  std::atomic<int64_t> stream_idle_ms;  // as `limits`, until SetLimits
   Admission searches;
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
+  AccessControl access;
 };
 
 }  // namespace argmesh

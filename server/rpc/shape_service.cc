@@ -43,13 +43,14 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::CreateShape(
     grpc::CallbackServerContext* context, const v1::CreateShapeRequest* request,
     v1::Shape* response) {
   return UnaryReactor::Start(
-      environment_, context,
+      environment_, context, request,
       {"ShapeService.CreateShape", WorkClass::kCompute, &environment_.uploads},
-      [this, request, response](const StopToken& stop) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(const NewShape shape, FromProto(*request));
-        ARGMESH_ASSIGN_OR_RETURN(
-            const AddedShape added,
-            environment_.engine.AddShape(shape, request->mesh().data(), stop));
+      [this, request, response](const UnaryCall& call) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(NewShape shape, FromProto(*request));
+        shape.request.principal = call.caller.principal;
+        ARGMESH_ASSIGN_OR_RETURN(const AddedShape added,
+                                 environment_.engine.AddShape(
+                                     shape, request->mesh().data(), call.stop));
         *response = ToProto(added.record);
         return absl::OkStatus();
       });
@@ -64,8 +65,8 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
     grpc::CallbackServerContext* context, const v1::GetShapeRequest* request,
     v1::Shape* response) {
   return UnaryReactor::Start(
-      environment_, context, {"ShapeService.GetShape"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"ShapeService.GetShape"},
+      [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
                                  ParseShapeName("name", request->name()));
         ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
@@ -78,17 +79,17 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
 grpc::ServerUnaryReactor* ShapeServiceImpl::ListShapes(
     grpc::CallbackServerContext* context, const v1::ListShapesRequest* request,
     v1::ListShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, {"ShapeService.ListShapes"},
-                             [this, request, response](const StopToken&) {
-                               return List(environment_.engine, *request,
-                                           response);
-                             });
+  return UnaryReactor::Start(
+      environment_, context, request, {"ShapeService.ListShapes"},
+      [this, request, response](const UnaryCall&) {
+        return List(environment_.engine, *request, response);
+      });
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::UpdateShape(
-    grpc::CallbackServerContext* context, const v1::UpdateShapeRequest*,
+    grpc::CallbackServerContext* context, const v1::UpdateShapeRequest* request,
     v1::Shape*) {
-  return UnaryReactor::NotServed(environment_, context,
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "ShapeService.UpdateShape");
 }
 
@@ -96,13 +97,13 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
     grpc::CallbackServerContext* context, const v1::DeleteShapeRequest* request,
     v1::DeleteShapeResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, {"ShapeService.DeleteShape"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"ShapeService.DeleteShape"},
+      [this, request, response](const UnaryCall& call) -> absl::Status {
         ShapeRemoval removal;
         ARGMESH_ASSIGN_OR_RETURN(removal.shape,
                                  ParseShapeName("name", request->name()));
         removal.etag = request->etag();
-        removal.request.request_id = request->request_id();
+        removal.request = {call.caller.principal, request->request_id()};
         ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
                                  environment_.engine.DeleteShape(removal));
         response->set_generation(generation);
@@ -111,16 +112,17 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
-    grpc::CallbackServerContext* context, const v1::BatchGetShapesRequest*,
-    v1::BatchGetShapesResponse*) {
-  return UnaryReactor::NotServed(environment_, context,
+    grpc::CallbackServerContext* context,
+    const v1::BatchGetShapesRequest* request, v1::BatchGetShapesResponse*) {
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "ShapeService.BatchGetShapes");
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(
-    grpc::CallbackServerContext* context, const v1::BatchDeleteShapesRequest*,
+    grpc::CallbackServerContext* context,
+    const v1::BatchDeleteShapesRequest* request,
     v1::BatchDeleteShapesResponse*) {
-  return UnaryReactor::NotServed(environment_, context,
+  return UnaryReactor::NotServed(environment_, context, request,
                                  "ShapeService.BatchDeleteShapes");
 }
 
@@ -135,8 +137,8 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShapeGraph(
     const v1::GetShapeGraphRequest* request,
     v1::GetShapeGraphResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, {"ShapeService.GetShapeGraph"},
-      [this, request, response](const StopToken&) -> absl::Status {
+      environment_, context, request, {"ShapeService.GetShapeGraph"},
+      [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(*response,
                                  AnswerGraph(environment_.engine, *request));
         return absl::OkStatus();

@@ -7,22 +7,23 @@ namespace argmesh {
 
 grpc::ServerUnaryReactor* UnaryReactor::Start(
     ServiceEnvironment& environment, grpc::CallbackServerContext* context,
-    const UnaryPlan& plan, Body body) {
-  return StartReactor<UnaryReactor>(environment, context, plan,
+    const Message* request, const UnaryPlan& plan, Body body) {
+  return StartReactor<UnaryReactor>(environment, context, request, plan,
                                     std::move(body));
 }
 
 grpc::ServerUnaryReactor* UnaryReactor::NotServed(
     ServiceEnvironment& environment, grpc::CallbackServerContext* context,
-    const char* method) {
-  return StartReactor<UnaryReactor>(environment, context, UnaryPlan{method},
-                                    Body());
+    const Message* request, const char* method) {
+  return StartReactor<UnaryReactor>(environment, context, request,
+                                    UnaryPlan{method}, Body());
 }
 
 UnaryReactor::UnaryReactor(ServiceEnvironment& environment,
                            grpc::CallbackServerContext* context,
-                           const UnaryPlan& plan, Body body)
-    : GuardedReactor(environment, context, plan.method),
+                           const Message* request, const UnaryPlan& plan,
+                           Body body)
+    : GuardedReactor(environment, context, request, plan.method),
       plan_(plan),
       body_(std::move(body)) {}
 
@@ -32,7 +33,9 @@ void UnaryReactor::Begin() {
     return;
   }
   if (plan_.admission != nullptr && !AdmitTo(*plan_.admission)) return;
-  Run(plan_.work_class, [this] { FinishOnce(body_(stop())); });
+  Run(plan_.work_class, [this] {
+    FinishOnce(body_({stop(), scope().caller()}));
+  });
 }
 
 }  // namespace argmesh

@@ -1,8 +1,8 @@
 // A call with one request and one response whose body runs on the pool.
 //
-//   return UnaryReactor::Start(environment, context,
+//   return UnaryReactor::Start(environment, context, request,
 //                              {"ShapeService.GetShape", WorkClass::kQuick},
-//                              [=](const StopToken& stop) { ... });
+//                              [=](const UnaryCall& call) { ... });
 //
 // gRPC keeps request and response alive until the call is done.
 #ifndef ARGMESH_SERVER_RPC_UNARY_REACTOR_H_
@@ -21,23 +21,31 @@ struct UnaryPlan {
   Admission* admission = nullptr;  // none: not limited
 };
 
+// What the body of a call is given beside its messages.
+struct UnaryCall {
+  const StopToken& stop;
+  const Caller& caller;
+};
+
 class UnaryReactor final : public GuardedReactor<grpc::ServerUnaryReactor> {
  public:
+  using Message = google::protobuf::Message;
   // Fills the response; its status ends the call.
-  using Body = std::function<absl::Status(const StopToken&)>;
+  using Body = std::function<absl::Status(const UnaryCall&)>;
 
   static grpc::ServerUnaryReactor* Start(ServiceEnvironment& environment,
                                          grpc::CallbackServerContext* context,
+                                         const Message* request,
                                          const UnaryPlan& plan, Body body);
 
   // Ends the call with METHOD_NOT_SERVED.
   static grpc::ServerUnaryReactor* NotServed(
       ServiceEnvironment& environment, grpc::CallbackServerContext* context,
-      const char* method);
+      const Message* request, const char* method);
 
   UnaryReactor(ServiceEnvironment& environment,
-               grpc::CallbackServerContext* context, const UnaryPlan& plan,
-               Body body);
+               grpc::CallbackServerContext* context, const Message* request,
+               const UnaryPlan& plan, Body body);
 
  protected:
   void Begin() override;

@@ -12,8 +12,10 @@ template <typename Base>
 class UnservedStream final : public GuardedReactor<Base> {
  public:
   UnservedStream(ServiceEnvironment& environment,
-                 grpc::CallbackServerContext* context, const char* method)
-      : GuardedReactor<Base>(environment, context, method), method_(method) {}
+                 grpc::CallbackServerContext* context,
+                 const google::protobuf::Message* request, const char* method)
+      : GuardedReactor<Base>(environment, context, request, method),
+        method_(method) {}
 
  protected:
   void Begin() override { this->FinishOnce(MethodNotServed(method_)); }

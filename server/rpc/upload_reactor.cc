@@ -11,7 +11,7 @@ namespace argmesh {
 UploadReactor::UploadReactor(ServiceEnvironment& environment,
                              grpc::CallbackServerContext* context,
                              v1::Shape* response)
-    : ReadingReactor(environment, context, "ShapeService.UploadShape"),
+    : ReadingReactor(environment, context, nullptr, "ShapeService.UploadShape"),
       response_(response) {}
 
 void UploadReactor::Begin() {
@@ -45,6 +45,7 @@ absl::Status UploadReactor::StartUpload(const v1::UploadShapeHeader& header) {
       engine().GetCollection(announced.shape.collection).status());
   ARGMESH_ASSIGN_OR_RETURN(upload_, engine().StartUpload(announced.upload));
   shape_ = std::move(announced.shape);
+  shape_.request.principal = scope().caller().principal;
   return absl::OkStatus();
 }
 
@@ -66,7 +67,7 @@ absl::Status UploadReactor::AddShape() {
 
 void UploadReactor::OnTick(absl::Time now) {
   ResubmitWaiting();
-  const absl::Duration limit = environment().limits.stream_idle_timeout;
+  const absl::Duration limit = environment().stream_idle_timeout();
   if (Silence(now) > limit) FinishOnce(StreamIdle(limit));
 }
 

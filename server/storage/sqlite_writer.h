@@ -35,7 +35,7 @@ struct SqliteWriterOptions {
 
 struct SqliteWriterLoad {
   int64_t commits = 0;
-  int64_t changes = 0;  // committed
+  int64_t changes = 0;         // committed
   absl::Duration commit_time;  // of all commits, from group to disk
   int64_t wal_bytes = 0;
   int64_t queued = 0;

@@ -12,8 +12,7 @@ const prometheus::Histogram::BucketBoundaries kSeconds = {
 
 prometheus::Labels LabelsOf(std::string_view method) {
   const size_t dot = method.find('.');
-  return {{"grpc_service",
-           "argmesh.v1." + std::string(method.substr(0, dot))},
+  return {{"grpc_service", "argmesh.v1." + std::string(method.substr(0, dot))},
           {"grpc_method", std::string(method.substr(dot + 1))}};
 }
 

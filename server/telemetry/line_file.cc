@@ -19,9 +19,8 @@ absl::StatusOr<int> OpenForAppending(const std::string& path) {
   const int descriptor = ::open(
       path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kOwnerOnly);
   if (descriptor >= 0) return descriptor;
-  return absl::UnavailableError(
-      absl::StrCat("cannot open ", path, ": ",
-                   std::system_category().message(errno)));
+  return absl::UnavailableError(absl::StrCat(
+      "cannot open ", path, ": ", std::system_category().message(errno)));
 }
 
 }  // namespace

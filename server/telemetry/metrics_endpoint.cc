@@ -21,8 +21,8 @@ prometheus::MetricFamily ToFamily(const std::string& name,
   prometheus::MetricFamily out;
   out.name = name;
   out.help = family.help;
-  out.type = counter ? prometheus::MetricType::Counter
-                     : prometheus::MetricType::Gauge;
+  out.type =
+      counter ? prometheus::MetricType::Counter : prometheus::MetricType::Gauge;
   for (const GaugeSheet::Sample& sample : family.samples) {
     prometheus::ClientMetric metric;
     for (const auto& [key, value] : sample.labels) {

@@ -58,8 +58,8 @@ void WriteOpenFiles(GaugeSheet& sheet) {
 
 void WriteProcessGauges(GaugeSheet& sheet) {
   // Of the first call, which main makes before it serves.
-  static const double start = absl::ToDoubleSeconds(
-      absl::Now() - absl::UnixEpoch());
+  static const double start =
+      absl::ToDoubleSeconds(absl::Now() - absl::UnixEpoch());
   sheet.Gauge("process_start_time_seconds", "Start, seconds since 1970.",
               start);
   WriteCpu(sheet);

@@ -52,8 +52,7 @@ Json ServerSpan(const CallRecord& record, const std::string& trace,
       Attribute("rpc.system", "grpc"),
       Attribute("rpc.service", absl::StrCat("argmesh.v1.", service)),
       Attribute("rpc.method", method),
-      IntAttribute("rpc.grpc.status_code",
-                static_cast<int>(record.code)),
+      IntAttribute("rpc.grpc.status_code", static_cast<int>(record.code)),
       Attribute("network.peer.address", record.peer),
   };
   if (!record.reason.empty()) {
@@ -76,14 +75,13 @@ std::string SpanLine(const CallRecord& record) {
   if (record.work_begin < record.end) {
     spans.push_back(Span(trace, MakeSpanId(), id, "queue", record.begin,
                          record.work_begin));
-    spans.push_back(Span(trace, MakeSpanId(), id, "work", record.work_begin,
-                         record.end));
+    spans.push_back(
+        Span(trace, MakeSpanId(), id, "work", record.work_begin, record.end));
   }
   Json scope = {{"scope", {{"name", "argmeshd"}}}, {"spans", spans}};
   Json resource = {
       {"resource",
-       {{"attributes",
-         Json::array({Attribute("service.name", "argmeshd")})}}},
+       {{"attributes", Json::array({Attribute("service.name", "argmeshd")})}}},
       {"scopeSpans", Json::array({scope})}};
   const Json line = {{"resourceSpans", Json::array({resource})}};
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);

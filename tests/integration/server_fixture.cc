@@ -61,8 +61,10 @@ std::string OffOf(const TriangleMesh& mesh) {
 
 TestServer::TestServer(TestServerOptions options)
     : options_(std::move(options)),
-      folder_(MakeFolder()),
-      log_(std::make_unique<EventLog>(log_text_)) {
+      folder_(MakeFolder()) {
+  auto telemetry = Telemetry::Open(options_.telemetry, log_text_);
+  EXPECT_TRUE(telemetry.ok()) << telemetry.status();
+  telemetry_ = *std::move(telemetry);
   options_.rpc.listen = "127.0.0.1:0";
   options_.rpc.version = "test";
 }
@@ -74,7 +76,7 @@ TestServer::~TestServer() {
 
 void TestServer::Start() {
   engine_ = OpenEngine(folder_, options_.engine);
-  auto rpc = RpcServer::Start(options_.rpc, *engine_, *log_);
+  auto rpc = RpcServer::Start(options_.rpc, *engine_, *telemetry_);
   ASSERT_TRUE(rpc.ok()) << rpc.status();
   rpc_ = *std::move(rpc);
   const absl::Status serving =

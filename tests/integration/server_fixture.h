@@ -22,14 +22,15 @@
 #include "argmesh/v1/search_service.grpc.pb.h"
 #include "argmesh/v1/shape_service.grpc.pb.h"
 #include "server/engine/engine.h"
-#include "server/telemetry/event_log.h"
 #include "server/rpc/rpc_server.h"
+#include "server/telemetry/telemetry.h"
 
 namespace argmesh {
 
 struct TestServerOptions {
   EngineOptions engine;
   RpcServerOptions rpc;
+  TelemetryOptions telemetry;
 };
 
 class TestServer {
@@ -45,6 +46,8 @@ class TestServer {
 
   RpcServer& rpc() { return *rpc_; }
   Engine& engine() { return *engine_; }
+  Telemetry& telemetry() { return *telemetry_; }
+  const std::filesystem::path& folder() const { return folder_; }
   std::string log() const { return log_text_.str(); }
   std::shared_ptr<grpc::Channel> channel() { return channel_; }
 
@@ -64,7 +67,7 @@ class TestServer {
   TestServerOptions options_;
   std::filesystem::path folder_;
   std::ostringstream log_text_;
-  std::unique_ptr<EventLog> log_;
+  std::unique_ptr<Telemetry> telemetry_;
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<RpcServer> rpc_;
   std::shared_ptr<grpc::Channel> channel_;

@@ -51,5 +51,26 @@ TEST(EventLog, KeepsLinesOfManyThreadsWhole) {
   EXPECT_EQ(lines, 200);
 }
 
+TEST(EventLog, DropsEventsBelowItsLevel) {
+  std::ostringstream out;
+  EventLog log(out);
+  log.Write(LogLevel::kDebug, "dropped");
+  EXPECT_EQ(out.str(), "");
+  log.SetLowest(LogLevel::kDebug);
+  log.Write(LogLevel::kDebug, "kept");
+  EXPECT_EQ(nlohmann::json::parse(out.str())["level"], "debug");
+}
+
+TEST(ParseLogLevel, ReadsBackEveryName) {
+  for (const LogLevel level : {LogLevel::kDebug, LogLevel::kInfo,
+                               LogLevel::kWarning, LogLevel::kError}) {
+    const auto parsed = ParseLogLevel(LogLevelName(level));
+    ASSERT_TRUE(parsed.ok());
+    EXPECT_EQ(*parsed, level);
+  }
+  EXPECT_FALSE(ParseLogLevel("loud").ok());
+  EXPECT_FALSE(ParseLogLevel("").ok());
+}
+
 }  // namespace
 }  // namespace argmesh
