@@ -1,13 +1,13 @@
 #include "client/client.h"
 
 #include <grpcpp/create_channel.h>
-#include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
 #include <utility>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_format.h"
+#include "client/channel_credentials.h"
 #include "client/client_parts.h"
 #include "client/request_id.h"
 #include "core/base/status_macros.h"
@@ -20,8 +20,10 @@ constexpr int kPageSize = 1000;
 
 }  // namespace
 
-void SetDeadline(absl::Time deadline, grpc::ClientContext& context) {
+void Client::Parts::Prepare(absl::Time deadline,
+                            grpc::ClientContext& context) const {
   context.set_deadline(absl::ToChronoTime(deadline));
+  AddKey(options, context);
 }
 
 absl::Status Client::Parts::Explain(const grpc::Status& status) const {
@@ -65,11 +67,13 @@ absl::StatusOr<std::unique_ptr<Client>> Client::Connect(
   // A peer that has vanished without a word ends the calls in flight.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
+  ARGMESH_ASSIGN_OR_RETURN(const auto credentials,
+                           MakeChannelCredentials(options.tls, arguments));
   auto parts = std::make_unique<Parts>();
   parts->target = std::string(target);
   parts->options = options;
-  parts->channel = grpc::CreateCustomChannel(
-      parts->target, grpc::InsecureChannelCredentials(), arguments);
+  parts->channel =
+      grpc::CreateCustomChannel(parts->target, credentials, arguments);
   parts->collections = v1::CollectionService::NewStub(parts->channel);
   parts->shapes = v1::ShapeService::NewStub(parts->channel);
   parts->ingest = v1::IngestService::NewStub(parts->channel);

@@ -49,7 +49,8 @@ struct ShapeGraphWithLabels {
 class Client {
  public:
   // `target` is HOST:PORT. Does not wait for the server: the first call finds
-  // out whether it is there. kInvalidArgument for an empty target.
+  // out whether it is there. kInvalidArgument for an empty target and files of
+  // the options that cannot be read.
   static absl::StatusOr<std::unique_ptr<Client>> Connect(
       std::string_view target, const ClientOptions& options = {});
   ~Client();

@@ -34,7 +34,7 @@ absl::StatusOr<std::string> Client::CheckHealth(std::string_view service) {
                              google::protobuf::Int32Value>
       stub(parts_->channel);
   grpc::ClientContext context;
-  SetDeadline(absl::Now() + parts_->options.call_timeout, context);
+  parts_->Prepare(absl::Now() + parts_->options.call_timeout, context);
   grpc::CompletionQueue queue;
   const auto call = stub.PrepareUnaryCall(
       &context, "/grpc.health.v1.Health/Check", request, &queue);

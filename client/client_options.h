@@ -19,13 +19,24 @@ struct RetryOptions {
   double multiplier = 2;                                     // >= 1
 };
 
-// Connections are not encrypted so far; certificates and keys will be fields
-// here.
+// Encryption. The files are in PEM form and read once.
+struct ClientTls {
+  bool enabled = false;     // false: plain text
+  std::string authorities;  // of the server's certificate; empty: the system's
+  std::string certificate;  // the client's own chain; empty: none
+  std::string private_key;
+  std::string server_name;  // that the certificate is for; empty: the host
+};
+
 struct ClientOptions {
   // Of one call with all its attempts, also an upload or download; > 0.
   absl::Duration call_timeout = absl::Seconds(120);
   // Of calls that may be repeated without harm.
   RetryOptions retry;
+  ClientTls tls;
+  // "ID.SECRET", see `argmesh keys`; empty: none. Without TLS whoever reads
+  // the connection reads it too.
+  std::string api_key;
   // Put before gRPC's own words in the user-agent header.
   std::string user_agent = "argmesh-client";
 };

@@ -46,15 +46,15 @@ struct Client::Parts {
   absl::Status Explain(const grpc::Status& status) const;
   absl::Status Explain(const absl::Status& status) const;
 
+  // Gives the context of one attempt its deadline and the key.
+  void Prepare(absl::Time deadline, grpc::ClientContext& context) const;
+
   // Makes one call, again where that may help, until the deadline.
   template <typename Response>
   absl::StatusOr<Response> Call(
       Repeat repeat,
       const std::function<grpc::Status(grpc::ClientContext*, Response*)>& call);
 };
-
-// Gives a context the deadline; made anew for every attempt.
-void SetDeadline(absl::Time deadline, grpc::ClientContext& context);
 
 template <typename Response>
 absl::StatusOr<Response> Client::Parts::Call(
@@ -64,7 +64,7 @@ absl::StatusOr<Response> Client::Parts::Call(
   Backoff backoff(options.retry, next_seed.fetch_add(1));
   while (true) {
     grpc::ClientContext context;
-    SetDeadline(deadline, context);
+    Prepare(deadline, context);
     Response response;
     const absl::Status status = Explain(call(&context, &response));
     if (status.ok()) return response;

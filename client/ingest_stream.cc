@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "client/channel_credentials.h"
 #include "client/error_status.h"
 #include "client/mesh_chunks.h"
 
@@ -14,12 +15,14 @@ constexpr auto kPoll = std::chrono::milliseconds(50);
 }  // namespace
 
 IngestStream::IngestStream(v1::IngestService::Stub& stub,
+                           const ClientOptions& options,
                            const v1::IngestHello& hello, absl::Duration silence,
                            OnResult on_result)
-    : stream_(stub.IngestShapes(&context_)),
-      silence_(silence),
+    : silence_(silence),
       on_result_(std::move(on_result)),
       last_message_(std::chrono::steady_clock::now()) {
+  AddKey(options, context_);
+  stream_ = stub.IngestShapes(&context_);
   v1::IngestShapesRequest request;
   *request.mutable_hello() = hello;
   // A failed write shows as the end of the stream to the reader.

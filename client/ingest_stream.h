@@ -22,6 +22,7 @@
 #include "absl/status/status.h"
 #include "absl/time/time.h"
 #include "argmesh/v1/ingest_service.grpc.pb.h"
+#include "client/client_options.h"
 
 namespace argmesh {
 
@@ -29,10 +30,12 @@ class IngestStream {
  public:
   using OnResult = std::function<void(const v1::IngestItemResult&)>;
 
-  // Opens the stream and says hello. `on_result` is called by the reader
-  // thread. A stream on which nothing comes for `silence` is cut.
-  IngestStream(v1::IngestService::Stub& stub, const v1::IngestHello& hello,
-               absl::Duration silence, OnResult on_result);
+  // Opens the stream with the key of `options` and says hello. `on_result` is
+  // called by the reader thread. A stream on which nothing comes for `silence`
+  // is cut.
+  IngestStream(v1::IngestService::Stub& stub, const ClientOptions& options,
+               const v1::IngestHello& hello, absl::Duration silence,
+               OnResult on_result);
   ~IngestStream();  // cuts the stream when Finish was not called
 
   // Waits until an item may be begun. False when none may be any more: the

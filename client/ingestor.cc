@@ -109,7 +109,7 @@ absl::Status IngestRun::RunStream() {
   hello.set_create_if_absent(options_.create_if_absent);
   if (options_.settings) *hello.mutable_settings() = *options_.settings;
   IngestStream stream(
-      *client_.parts().ingest, hello, options_.silence,
+      *client_.parts().ingest, client_.options(), hello, options_.silence,
       [this](const v1::IngestItemResult& result) { TakeResult(result); });
   while (ready_ && stream.WaitForCredit(options_.max_in_flight, stop_)) {
     size_t index = 0;

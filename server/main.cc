@@ -1,11 +1,10 @@
-// argmeshd: wires storage, engine and gRPC, and lives until SIGTERM.
+// argmeshd: serves until SIGTERM; SIGHUP reads the options again.
 //
 // Exit codes: 0 stopped as asked, 1 could not start or stop cleanly, 2 the
 // command line is wrong. stderr carries one JSON object a line.
 #include <pthread.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -20,54 +19,14 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
-#include "server/engine/engine.h"
 #include "server/options.h"
-#include "server/telemetry/event_log.h"
-#include "server/rpc/rpc_server.h"
-#include "server/storage/data_directory.h"
-#include "server/storage/directory_mesh_store.h"
-#include "server/storage/sqlite_catalog.h"
+#include "server/serving.h"
 
 namespace argmesh {
 namespace {
 
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
-
-RpcServerOptions RpcOptionsOf(const ServerOptions& options) {
-  RpcServerOptions rpc;
-  rpc.listen = options.listen;
-  rpc.insecure_remote = options.insecure_remote;
-  rpc.reflection = options.reflection;
-  rpc.version = ARGMESH_VERSION;
-  rpc.limits.max_inflight_searches = options.max_inflight_searches;
-  rpc.limits.max_inflight_uploads = options.max_inflight_uploads;
-  rpc.limits.max_inflight_ingests = options.max_inflight_ingests;
-  rpc.limits.stream_idle_timeout = options.stream_idle_timeout;
-  return rpc;
-}
-
-EngineOptions EngineOptionsOf(const ServerOptions& options) {
-  EngineOptions engine;
-  engine.mesh_limits.max_bytes = options.max_mesh_bytes;
-  if (options.threads > 0) {
-    engine.pool.threads = {options.threads, std::max(1, options.threads - 1),
-                           2 * options.threads};
-  }
-  return engine;
-}
-
-absl::StatusOr<std::unique_ptr<Engine>> OpenEngine(
-    const ServerOptions& options) {
-  ARGMESH_ASSIGN_OR_RETURN(std::shared_ptr<DataDirectory> directory,
-                           DataDirectory::Open(options.data));
-  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<DirectoryMeshStore> meshes,
-                           DirectoryMeshStore::Open(directory));
-  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<SqliteCatalog> catalog,
-                           SqliteCatalog::Open(directory));
-  return Engine::Create(EngineOptionsOf(options), std::move(catalog),
-                        std::move(meshes));
-}
 
 // Written whole or not at all: a script that sees the file can read it.
 absl::Status WritePortFile(const std::string& path,
@@ -118,36 +77,51 @@ void Drain(const ServerOptions& options, RpcServer& server, EventLog& log) {
              {"elapsed_ms", absl::ToDoubleMilliseconds(absl::Now() - begin)}});
 }
 
-absl::Status Serve(const ServerOptions& options, EventLog& log) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<Engine> engine,
-                           OpenEngine(options));
-  ARGMESH_ASSIGN_OR_RETURN(
-      const std::unique_ptr<RpcServer> server,
-      RpcServer::Start(RpcOptionsOf(options), *engine, log));
+absl::StatusOr<ParsedOptions> Parse(const std::vector<std::string>& arguments) {
+  return ParseServerOptions(arguments, ProcessEnvironment(), ARGMESH_VERSION);
+}
+
+// SIGHUP: file and environment are read again, under the flags of the start.
+void Reload(const std::vector<std::string>& arguments, Serving& serving) {
+  const absl::StatusOr<ParsedOptions> parsed = Parse(arguments);
+  if (parsed.ok()) {
+    serving.Reload(parsed->options);
+  } else {
+    serving.log().Write(LogLevel::kError, "not reloaded",
+                        {{"error", parsed.status().ToString()}});
+  }
+}
+
+absl::Status Serve(const std::vector<std::string>& arguments,
+                   const ServerOptions& options, std::ostream& log) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<Serving> serving,
+                           Serving::Start(options, log));
   if (!options.port_file.empty()) {
     ARGMESH_RETURN_IF_ERROR(
-        WritePortFile(options.port_file, server->address()));
+        WritePortFile(options.port_file, serving->rpc().address()));
   }
-  log.Write(LogLevel::kInfo, "serving",
-            {{"address", server->address()},
-             {"version", std::string(ARGMESH_VERSION)},
-             {"data", options.data}});
+  serving->log().Write(LogLevel::kInfo, "serving",
+                       {{"address", serving->rpc().address()},
+                        {"version", std::string(ARGMESH_VERSION)},
+                        {"data", options.data}});
 
-  const sigset_t signals = StopSignals();
+  sigset_t signals = StopSignals();
+  sigaddset(&signals, SIGHUP);
   int signal = 0;
-  sigwait(&signals, &signal);
-  log.Write(
+  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
+    Reload(arguments, *serving);
+  }
+  serving->log().Write(
       LogLevel::kInfo, "stopping",
       {{"signal", std::string(signal == SIGTERM ? "SIGTERM" : "SIGINT")}});
-  Drain(options, *server, log);
-  ARGMESH_RETURN_IF_ERROR(engine->Close());
-  log.Write(LogLevel::kInfo, "stopped");
+  Drain(options, serving->rpc(), serving->log());
+  ARGMESH_RETURN_IF_ERROR(serving->Close());
+  serving->log().Write(LogLevel::kInfo, "stopped");
   return absl::OkStatus();
 }
 
 int Main(const std::vector<std::string>& arguments) {
-  const absl::StatusOr<ParsedOptions> parsed =
-      ParseServerOptions(arguments, ProcessEnvironment(), ARGMESH_VERSION);
+  const absl::StatusOr<ParsedOptions> parsed = Parse(arguments);
   if (!parsed.ok()) {
     std::cerr << "argmeshd: " << parsed.status().message() << "\n";
     return kExitUsage;
@@ -157,7 +131,7 @@ int Main(const std::vector<std::string>& arguments) {
     return 0;
   }
   const ServerOptions& options = parsed->options;
-  absl::Status valid = CheckListenAddress(RpcOptionsOf(options));
+  absl::Status valid = CheckServerOptions(options);
   if (valid.ok() && options.data.empty() && !options.print_config) {
     valid = absl::InvalidArgumentError("--data is required");
   }
@@ -168,10 +142,10 @@ int Main(const std::vector<std::string>& arguments) {
   if (options.print_config) std::cout << FormatServerOptions(options);
   if (options.print_config || options.check_config) return 0;
 
-  EventLog log(std::cerr);
-  const absl::Status served = Serve(options, log);
+  const absl::Status served = Serve(arguments, options, std::cerr);
   if (served.ok()) return 0;
-  log.Write(LogLevel::kError, "failed", {{"error", served.ToString()}});
+  EventLog(std::cerr).Write(LogLevel::kError, "failed",
+                            {{"error", served.ToString()}});
   return kExitFailed;
 }
 
@@ -181,7 +155,8 @@ int Main(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   // Before any thread is started, so that every thread inherits it and only
   // sigwait sees the signals.
-  const sigset_t signals = argmesh::StopSignals();
+  sigset_t signals = argmesh::StopSignals();
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal(SIGPIPE, SIG_IGN);
   return argmesh::Main(std::vector<std::string>(argv + 1, argv + argc));

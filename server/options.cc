@@ -34,6 +34,31 @@ void AddServingOptions(CLI::App& app, ServerOptions& options) {
                  "Serve gRPC reflection: on or off");
 }
 
+void AddSecurity(CLI::App& app, ServerOptions& options) {
+  app.add_option("--tls-cert", options.tls_cert,
+                 "Certificate chain, PEM; followed when it changes");
+  app.add_option("--tls-key", options.tls_key, "Its private key, PEM");
+  app.add_option("--tls-client-ca", options.tls_client_ca,
+                 "Clients must have a certificate of these authorities, PEM");
+  app.add_option("--keys", options.keys,
+                 "Callers must have one of the API keys in this file (argmesh "
+                 "keys)");
+}
+
+void AddTelemetry(CLI::App& app, ServerOptions& options) {
+  app.add_option("--log-level", options.log_level,
+                 "Least level of events on stderr")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}));
+  app.add_option("--audit-log", options.audit_log,
+                 "Add a line for every write and every refused caller to this "
+                 "file");
+  app.add_option("--trace-log", options.trace_log,
+                 "Add spans of calls to this file, OTLP as JSON lines");
+  app.add_option("--metrics-listen", options.metrics_listen,
+                 "HOST:PORT of /metrics for Prometheus; without key and "
+                 "encryption");
+}
+
 void AddLimits(CLI::App& app, ServerOptions& options) {
   app.add_option("--threads", options.threads,
                  "Threads for searches; computation gets one less; 0: from "
@@ -160,6 +185,8 @@ absl::StatusOr<ParsedOptions> ParseServerOptions(
   CLI::App app("The argmesh shape-retrieval server", "argmeshd");
   Describe(app, version);
   AddServingOptions(app, options);
+  AddSecurity(app, options);
+  AddTelemetry(app, options);
   AddLimits(app, options);
   AddTimes(app, seconds);
   AddActions(app, options);
@@ -188,7 +215,16 @@ std::string FormatServerOptions(const ServerOptions& options) {
       "data=", Quoted(options.data), "\nlisten=", Quoted(options.listen),
       "\nport-file=", Quoted(options.port_file),
       "\ninsecure-remote=", OnOff(options.insecure_remote),
-      "\nreflection=", OnOff(options.reflection), "\nthreads=", options.threads,
+      "\nreflection=", OnOff(options.reflection),
+      "\ntls-cert=", Quoted(options.tls_cert),
+      "\ntls-key=", Quoted(options.tls_key),
+      "\ntls-client-ca=", Quoted(options.tls_client_ca),
+      "\nkeys=", Quoted(options.keys),
+      "\nlog-level=", Quoted(options.log_level),
+      "\naudit-log=", Quoted(options.audit_log),
+      "\ntrace-log=", Quoted(options.trace_log),
+      "\nmetrics-listen=", Quoted(options.metrics_listen),
+      "\nthreads=", options.threads,
       "\nmax-mesh-bytes=", options.max_mesh_bytes,
       "\nmax-inflight-searches=", options.max_inflight_searches,
       "\nmax-inflight-uploads=", options.max_inflight_uploads,

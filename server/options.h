@@ -32,6 +32,19 @@ struct ServerOptions {
   absl::Duration drain_timeout = absl::Seconds(20);
   bool reflection = true;
   bool insecure_remote = false;
+
+  // Encryption and callers; all are files.
+  std::string tls_cert;
+  std::string tls_key;
+  std::string tls_client_ca;
+  std::string keys;
+
+  // What is told of the work.
+  std::string log_level = "info";  // debug, info, warning, error
+  std::string audit_log;           // a file; empty: none
+  std::string trace_log;           // a file; empty: none
+  std::string metrics_listen;      // HOST:PORT; empty: none
+
   std::string port_file;  // receives HOST:PORT when serving; empty: none
 
   // What to do instead of serving.

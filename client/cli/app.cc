@@ -39,6 +39,27 @@ void AddGlobalOptions(CLI::App& app, GlobalOptions& options) {
       ->capture_default_str();
   app.add_flag("--json", options.json,
                "Print one JSON document instead of text for people");
+  app.add_flag("--tls", options.tls.enabled,
+               "Encrypt; implied by the other --tls options");
+  app.add_option("--tls-ca", options.tls.authorities,
+                 "Authorities of the server's certificate, PEM; else the "
+                 "system's")
+      ->envname("ARGMESH_TLS_CA")
+      ->type_name("FILE");
+  app.add_option("--tls-cert", options.tls.certificate,
+                 "Certificate of this client, PEM")
+      ->envname("ARGMESH_TLS_CERT")
+      ->type_name("FILE");
+  app.add_option("--tls-key", options.tls.private_key, "Its private key, PEM")
+      ->envname("ARGMESH_TLS_KEY")
+      ->type_name("FILE");
+  app.add_option("--tls-server-name", options.tls.server_name,
+                 "Name that the server's certificate is for, if not the host")
+      ->type_name("NAME");
+  app.add_option("--key-file", options.key_file,
+                 "File with the API key; else the variable ARGMESH_KEY")
+      ->envname("ARGMESH_KEY_FILE")
+      ->type_name("FILE");
   app.set_version_flag("--version", std::string("argmesh ") + ARGMESH_VERSION);
 }
 
@@ -54,6 +75,7 @@ void AddCommands(CLI::App& app, CommandSet& commands) {
   AddPictureCommands(app, commands);
   AddSampleCommand(app, commands);
   AddInfoCommand(app, commands);
+  AddKeysCommands(app, commands);
   AddHealthCommand(app, commands);
   AddCompletionCommand(app, commands);
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr char kGlobalOptions[] = R"(
 
 Global options, before or after the command: --server HOST:PORT, --timeout
-SECONDS, --json; see `argmesh --help`.)";
+SECONDS, --json, --tls..., --key-file FILE; see `argmesh --help`.)";
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "client/cli/json.h"
 #include "client/client.h"
+#include "client/client_options.h"
 
 namespace argmesh {
 
@@ -28,6 +29,8 @@ struct GlobalOptions {
   std::string server = "127.0.0.1:7411";
   double timeout_seconds = 120;
   bool json = false;
+  ClientTls tls;
+  std::string key_file;  // its first line is the key; empty: ARGMESH_KEY
 };
 
 struct Session {

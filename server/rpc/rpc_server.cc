@@ -122,7 +122,9 @@ class RpcServer::Impl {
         ingest_(environment_),
         search_(environment_),
         admin_(environment_),
-        operations_(environment_) {}
+        operations_(environment_) {
+    environment_.access.SetKeys(options.keys);
+  }
 
   ~Impl() { Shutdown(absl::Now()); }
 
@@ -135,9 +137,10 @@ class RpcServer::Impl {
     } else {
       builder.SetOption(std::make_unique<WithoutReflection>());
     }
+    ARGMESH_ASSIGN_OR_RETURN(const auto credentials,
+                             MakeServerCredentials(options.tls));
     int port = 0;
-    builder.AddListeningPort(address.ToString(),
-                             grpc::InsecureServerCredentials(), &port);
+    builder.AddListeningPort(address.ToString(), credentials, &port);
     builder.RegisterService(&collections_)
         .RegisterService(&shapes_)
         .RegisterService(&ingest_)
@@ -223,12 +226,20 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
 absl::Status CheckListenAddress(const RpcServerOptions& options) {
   ARGMESH_ASSIGN_OR_RETURN(const ListenAddress address,
                            ParseListenAddress(options.listen));
-  if (address.loopback || options.insecure_remote) return absl::OkStatus();
+  const bool encrypts = options.tls.enabled();
+  const bool knows_callers =
+      options.keys != nullptr || !options.tls.client_authorities.empty();
+  if (address.loopback || options.insecure_remote ||
+      (encrypts && knows_callers)) {
+    return absl::OkStatus();
+  }
   return absl::InvalidArgumentError(absl::StrFormat(
       "refusing to listen on %s: it can be reached from other machines, and "
-      "this version neither encrypts nor authenticates. Listen on 127.0.0.1 "
-      "behind a proxy that does, or pass --insecure-remote",
-      options.listen));
+      "%s. Listen on 127.0.0.1 behind a proxy that does, or pass "
+      "--insecure-remote",
+      options.listen,
+      encrypts ? "callers are not known (--keys, --tls-client-ca)"
+               : "calls are not encrypted (--tls-cert, --tls-key)"));
 }
 
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(

@@ -5,7 +5,9 @@
 //          the other services from the start; "liveness" as long as the
 //          process lives. All but "liveness" are NOT_SERVING from StartDrain.
 // Fails    kInvalidArgument  the address is malformed, or not loopback without
-//                            `insecure_remote`
+//                            TLS and callers that are known (keys or
+//                            client certificates), or `insecure_remote`;
+//                            the certificate files are unusable
 //          kUnavailable      the address cannot be bound
 // Thread-safe.
 #ifndef ARGMESH_SERVER_RPC_RPC_SERVER_H_
@@ -19,6 +21,7 @@
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
 #include "server/rpc/service_environment.h"
+#include "server/rpc/transport_security.h"
 #include "server/telemetry/gauge_sheet.h"
 #include "server/telemetry/telemetry.h"
 
@@ -31,7 +34,11 @@ namespace argmesh {
 struct RpcServerOptions {
   // HOST:PORT, [IPV6]:PORT; port 0 takes a free one.
   std::string listen = "127.0.0.1:7411";
-  // Bind other than loopback although nothing is encrypted or authenticated.
+  TlsOptions tls;
+  // Callers must show one of these; none: everybody who can connect is let in.
+  std::shared_ptr<const KeyRing> keys;
+  // Bind other than loopback although calls are not encrypted, or callers not
+  // known.
   bool insecure_remote = false;
   bool reflection = true;
   std::string version;
