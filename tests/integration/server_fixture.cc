@@ -60,8 +60,7 @@ std::string OffOf(const TriangleMesh& mesh) {
 }  // namespace
 
 TestServer::TestServer(TestServerOptions options)
-    : options_(std::move(options)),
-      folder_(MakeFolder()) {
+    : options_(std::move(options)), folder_(MakeFolder()) {
   auto telemetry = Telemetry::Open(options_.telemetry, log_text_);
   EXPECT_TRUE(telemetry.ok()) << telemetry.status();
   telemetry_ = *std::move(telemetry);

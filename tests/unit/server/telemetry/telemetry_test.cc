@@ -18,8 +18,8 @@ using Json = nlohmann::json;
 class TelemetryTest : public ::testing::Test {
  protected:
   void Open(LogLevel level) {
-    auto opened =
-        Telemetry::Open({.log_level = level, .audit_log = audit_path_}, log_);
+    auto opened = Telemetry::Open(
+        {.log_level = level, .audit_log = audit_path_, .trace_log = ""}, log_);
     ASSERT_TRUE(opened.ok()) << opened.status();
     telemetry_ = *std::move(opened);
   }
@@ -116,8 +116,10 @@ TEST_F(TelemetryTest, AuditsWritesAndDenialsOnly) {
 }
 
 TEST_F(TelemetryTest, FailsWhenAFileCannotBeOpened) {
-  const auto opened =
-      Telemetry::Open({.trace_log = "/no/such/folder/spans"}, log_);
+  const auto opened = Telemetry::Open({.log_level = LogLevel::kInfo,
+                                       .audit_log = "",
+                                       .trace_log = "/no/such/folder/spans"},
+                                      log_);
   EXPECT_EQ(opened.status().code(), absl::StatusCode::kUnavailable);
 }
 
