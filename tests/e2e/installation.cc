@@ -39,16 +39,19 @@ Installation::~Installation() {
   fs::remove_all(folder_, ignored);
 }
 
-bool Installation::StartServer() {
+bool Installation::StartServer(const std::vector<std::string>& more) {
   server_.reset();
   const fs::path port_file = folder_ / "address";
   fs::remove(port_file);
-  server_.emplace(
-      std::vector<std::string>{ARGMESHD_BINARY, "--data",
-                               (folder_ / "store").string(), "--listen",
-                               address_.empty() ? "127.0.0.1:0" : address_,
-                               "--port-file", port_file.string()},
-      folder_, "server");
+  std::vector<std::string> words = {ARGMESHD_BINARY,
+                                    "--data",
+                                    (folder_ / "store").string(),
+                                    "--listen",
+                                    address_.empty() ? "127.0.0.1:0" : address_,
+                                    "--port-file",
+                                    port_file.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  server_.emplace(words, folder_, "server");
   const auto end = std::chrono::steady_clock::now() + kStartTimeout;
   while (std::chrono::steady_clock::now() < end && server_->Running()) {
     std::string text = ReadAll(port_file);
@@ -60,6 +63,15 @@ bool Installation::StartServer() {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   std::cerr << server_->Err();
+  return false;
+}
+
+bool Installation::WaitForLog(const std::string& text) {
+  const auto end = std::chrono::steady_clock::now() + kStartTimeout;
+  while (std::chrono::steady_clock::now() < end && ServerRuns()) {
+    if (ServerLog().find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   return false;
 }
 

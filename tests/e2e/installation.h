@@ -31,8 +31,11 @@ class Installation {
   const std::string& address() const { return address_; }
 
   // Starts the server and waits until it serves; at the address of before when
-  // it ran before. False with its log on stderr when it does not come up.
-  bool StartServer();
+  // it ran before, with `more` options. False with its log on stderr when it
+  // does not come up.
+  bool StartServer(const std::vector<std::string>& more = {});
+  // Waits until the server has logged `text`; false when it does not.
+  bool WaitForLog(const std::string& text);
   void SignalServer(int signal);
   bool ServerRuns();
   // What the running or last server has logged.

@@ -101,6 +101,7 @@ TEST_F(ServerOptionsTest, RefusesValuesOutsideTheirRange) {
                                              {"--drain-timeout", "-1"},
                                              {"--stream-idle-timeout", "0"},
                                              {"--reflection", "perhaps"},
+                                             {"--log-level", "loud"},
                                              {"--no-such-option"},
                                              {"leftover"},
                                              {"--config", "/no/such/file"}}) {
@@ -119,9 +120,33 @@ TEST_F(ServerOptionsTest, NamesTheVariableThatIsWrong) {
 }
 
 TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
-  const auto first = Parse({"--data", "/a \"quoted\" folder", "--threads", "5",
-                            "--drain-delay", "1.25", "--reflection", "off",
-                            "--insecure-remote", "--max-mesh-bytes", "123456"});
+  const auto first = Parse({"--data",
+                            "/a \"quoted\" folder",
+                            "--threads",
+                            "5",
+                            "--drain-delay",
+                            "1.25",
+                            "--reflection",
+                            "off",
+                            "--insecure-remote",
+                            "--max-mesh-bytes",
+                            "123456",
+                            "--tls-cert",
+                            "c.pem",
+                            "--tls-key",
+                            "k.pem",
+                            "--tls-client-ca",
+                            "ca.pem",
+                            "--keys",
+                            "keys.json",
+                            "--log-level",
+                            "debug",
+                            "--audit-log",
+                            "audit",
+                            "--trace-log",
+                            "spans",
+                            "--metrics-listen",
+                            "127.0.0.1:9464"});
   ASSERT_TRUE(first.ok()) << first.status();
   const std::string text = FormatServerOptions(first->options);
   const auto second = Parse({WriteFile(text)});
@@ -130,6 +155,14 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
   EXPECT_EQ(second->options.threads, 5);
   EXPECT_EQ(second->options.drain_delay, absl::Milliseconds(1250));
   EXPECT_TRUE(second->options.insecure_remote);
+  EXPECT_EQ(second->options.tls_cert, "c.pem");
+  EXPECT_EQ(second->options.tls_key, "k.pem");
+  EXPECT_EQ(second->options.tls_client_ca, "ca.pem");
+  EXPECT_EQ(second->options.keys, "keys.json");
+  EXPECT_EQ(second->options.log_level, "debug");
+  EXPECT_EQ(second->options.audit_log, "audit");
+  EXPECT_EQ(second->options.trace_log, "spans");
+  EXPECT_EQ(second->options.metrics_listen, "127.0.0.1:9464");
 }
 
 TEST_F(ServerOptionsTest, AnswersHelpAndVersion) {
