@@ -60,7 +60,11 @@ bool AccessControl::has_keys() const { return keys() != nullptr; }
 absl::StatusOr<Caller> AccessControl::Authenticate(
     const grpc::ServerContextBase& context) const {
   const std::shared_ptr<const KeyRing> ring = keys();
-  if (ring == nullptr) return Caller{.principal = CertificateName(context)};
+  if (ring == nullptr) {
+    Caller everybody;
+    everybody.principal = CertificateName(context);
+    return everybody;
+  }
   const auto& metadata = context.client_metadata();
   const auto header = metadata.find(kAuthorization);
   if (header == metadata.end()) {

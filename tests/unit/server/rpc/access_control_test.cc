@@ -65,7 +65,8 @@ TEST(CheckRole, RefusesAMethodWithoutARule) {
 }
 
 TEST(CheckRole, KeepsBoundCallersFromTheWholeServer) {
-  Caller caller{.principal = "ops", .role = AccessRole::kAdmin};
+  Caller caller;
+  caller.principal = "ops";
   EXPECT_TRUE(CheckRole(caller, "AdminService.CreateSnapshot").ok());
   caller.collections = {"parts"};
   EXPECT_EQ(ReasonOf(CheckRole(caller, "AdminService.CreateSnapshot")),
