@@ -22,7 +22,9 @@ constexpr int kPageSize = 1000;
 
 void Client::Parts::Prepare(absl::Time deadline,
                             grpc::ClientContext& context) const {
-  context.set_deadline(absl::ToChronoTime(deadline));
+  if (deadline != absl::InfiniteFuture()) {
+    context.set_deadline(absl::ToChronoTime(deadline));
+  }
   AddKey(options, context);
 }
 
@@ -79,6 +81,7 @@ absl::StatusOr<std::unique_ptr<Client>> Client::Connect(
   parts->ingest = v1::IngestService::NewStub(parts->channel);
   parts->search = v1::SearchService::NewStub(parts->channel);
   parts->admin = v1::AdminService::NewStub(parts->channel);
+  parts->operations = google::longrunning::Operations::NewStub(parts->channel);
   parts->next_seed = static_cast<uint64_t>(absl::GetCurrentTimeNanos());
   return std::unique_ptr<Client>(new Client(std::move(parts)));
 }

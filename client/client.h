@@ -100,6 +100,19 @@ class Client {
 
   // --- the server ----------------------------------------------------------
   absl::StatusOr<v1::GetServerInfoResponse> GetServerInfo();
+  // --- snapshots and checks ------------------------------------------------
+  // Each waits until the server is done, longer than the options' time if need
+  // be. kInternal when the answer is not what it should be.
+  absl::StatusOr<v1::Snapshot> CreateSnapshot(std::string_view id);
+  absl::StatusOr<v1::VerifyStorageResponse> VerifyStorage();
+  absl::StatusOr<std::vector<v1::Snapshot>> ListSnapshots();
+  absl::Status DeleteSnapshot(std::string_view name);
+  // Hands out the bytes in order. They may be used once it returns OK: then
+  // size and SHA-256 are those the server has. Never tried again.
+  absl::StatusOr<v1::Snapshot> DownloadSnapshot(
+      std::string_view name,
+      const std::function<absl::Status(std::string_view)>& write);
+
   // "SERVING", "NOT_SERVING", "UNKNOWN" or "SERVICE_UNKNOWN" of
   // grpc.health.v1; of the whole server when `service` is empty. One attempt.
   absl::StatusOr<std::string> CheckHealth(std::string_view service);

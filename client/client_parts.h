@@ -23,6 +23,7 @@
 #include "client/backoff.h"
 #include "client/client.h"
 #include "client/error_status.h"
+#include "google/longrunning/operations.grpc.pb.h"
 
 namespace argmesh {
 
@@ -39,6 +40,7 @@ struct Client::Parts {
   std::unique_ptr<v1::IngestService::Stub> ingest;
   std::unique_ptr<v1::SearchService::Stub> search;
   std::unique_ptr<v1::AdminService::Stub> admin;
+  std::unique_ptr<google::longrunning::Operations::Stub> operations;
   std::atomic<uint64_t> next_seed{0};  // of the waits of each call
 
   // With the address in place of gRPC's own words when no server answers, or

@@ -1,4 +1,5 @@
-// argmeshd: serves until SIGTERM; SIGHUP reads the options again.
+// argmeshd: serves until SIGTERM; SIGHUP reads the options again. With
+// --restore it puts a snapshot in the place of the data instead.
 //
 // Exit codes: 0 stopped as asked, 1 could not start or stop cleanly, 2 the
 // command line is wrong. stderr carries one JSON object a line.
@@ -141,6 +142,13 @@ int Main(const std::vector<std::string>& arguments) {
   }
   if (options.print_config) std::cout << FormatServerOptions(options);
   if (options.print_config || options.check_config) return 0;
+
+  if (!options.restore.empty()) {
+    const absl::Status restored = Restore(options, std::cout);
+    if (restored.ok()) return 0;
+    std::cerr << "argmeshd: not restored: " << restored.message() << "\n";
+    return kExitFailed;
+  }
 
   const absl::Status served = Serve(arguments, options, std::cerr);
   if (served.ok()) return 0;

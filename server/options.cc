@@ -98,6 +98,10 @@ void AddActions(CLI::App& app, ServerOptions& options) {
   app.add_flag("--print-config", options.print_config,
                "Print the options as a file for --config and exit")
       ->configurable(false);
+  app.add_option("--restore", options.restore,
+                 "Check this snapshot, put it in the place of the data, and "
+                 "exit; no server may use the data")
+      ->configurable(false);
 }
 
 void Describe(CLI::App& app, std::string_view version) {

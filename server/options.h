@@ -50,6 +50,7 @@ struct ServerOptions {
   // What to do instead of serving.
   bool check_config = false;
   bool print_config = false;
+  std::string restore;  // a snapshot
 };
 
 // Looks a variable of the environment up.

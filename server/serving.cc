@@ -10,6 +10,7 @@
 #include "server/rpc/listen_address.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/directory_mesh_store.h"
+#include "server/storage/restore.h"
 #include "server/storage/sqlite_catalog.h"
 #include "server/telemetry/engine_gauges.h"
 
@@ -70,18 +71,6 @@ absl::StatusOr<TelemetryOptions> TelemetryOptionsOf(
   return telemetry;
 }
 
-absl::StatusOr<std::unique_ptr<Engine>> OpenEngine(
-    const ServerOptions& options) {
-  ARGMESH_ASSIGN_OR_RETURN(std::shared_ptr<DataDirectory> directory,
-                           DataDirectory::Open(options.data));
-  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<DirectoryMeshStore> meshes,
-                           DirectoryMeshStore::Open(directory));
-  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<SqliteCatalog> catalog,
-                           SqliteCatalog::Open(directory));
-  return Engine::Create(EngineOptionsOf(options), std::move(catalog),
-                        std::move(meshes));
-}
-
 // What Reload does not apply, as lines of a file: those that differ.
 std::string NotReloaded(const ServerOptions& before, ServerOptions after) {
   after.log_level = before.log_level;
@@ -120,6 +109,19 @@ absl::Status CheckServerOptions(const ServerOptions& options) {
   return CheckListenAddress(rpc);
 }
 
+absl::Status Restore(const ServerOptions& options, std::ostream& out) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::shared_ptr<DataDirectory> directory,
+                           DataDirectory::Open(options.data));
+  ARGMESH_ASSIGN_OR_RETURN(const RestoreReport report,
+                           RestoreSnapshot(options.restore, *directory));
+  out << "restored " << report.meshes << " meshes and the catalog, "
+      << report.bytes << " bytes\n";
+  if (!report.kept.empty()) {
+    out << "what was there before is kept in " << report.kept.string() << '\n';
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
     const ServerOptions& options, std::ostream& log) {
   std::unique_ptr<Serving> serving(new Serving());
@@ -128,27 +130,44 @@ absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
                            TelemetryOptionsOf(options));
   ARGMESH_ASSIGN_OR_RETURN(serving->telemetry_,
                            Telemetry::Open(telemetry, log));
-  ARGMESH_ASSIGN_OR_RETURN(serving->engine_, OpenEngine(options));
-  ARGMESH_ASSIGN_OR_RETURN(const RpcServerOptions rpc, RpcOptionsOf(options));
+  ARGMESH_RETURN_IF_ERROR(serving->OpenStore());
+  ARGMESH_ASSIGN_OR_RETURN(RpcServerOptions rpc, RpcOptionsOf(options));
+  rpc.store_admin = serving->snapshots_.get();
   ARGMESH_ASSIGN_OR_RETURN(
       serving->rpc_,
       RpcServer::Start(rpc, *serving->engine_, *serving->telemetry_));
-  if (!options.metrics_listen.empty()) {
-    Serving& parts = *serving;
-    ARGMESH_ASSIGN_OR_RETURN(
-        serving->metrics_,
-        MetricsEndpoint::Start(
-            options.metrics_listen, parts.telemetry_->metrics(),
-            {[&](GaugeSheet& sheet) { parts.rpc_->WriteGauges(sheet); },
-             [&](GaugeSheet& sheet) {
-               WriteEngineGauges(*parts.engine_, sheet);
-             },
-             [&](GaugeSheet& sheet) { parts.telemetry_->WriteGauges(sheet); },
-             WriteProcessGauges}));
-    serving->log().Write(LogLevel::kInfo, "metrics",
-                         {{"port", int64_t{serving->metrics_->port()}}});
-  }
+  ARGMESH_RETURN_IF_ERROR(serving->StartMetrics());
   return serving;
+}
+
+absl::Status Serving::OpenStore() {
+  ARGMESH_ASSIGN_OR_RETURN(std::shared_ptr<DataDirectory> directory,
+                           DataDirectory::Open(options_.data));
+  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<DirectoryMeshStore> meshes,
+                           DirectoryMeshStore::Open(directory));
+  ARGMESH_ASSIGN_OR_RETURN(snapshots_,
+                           SnapshotDirectory::Open(directory, *meshes));
+  ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<SqliteCatalog> catalog,
+                           SqliteCatalog::Open(directory));
+  ARGMESH_ASSIGN_OR_RETURN(
+      engine_, Engine::Create(EngineOptionsOf(options_), std::move(catalog),
+                              std::move(meshes)));
+  return absl::OkStatus();
+}
+
+absl::Status Serving::StartMetrics() {
+  if (options_.metrics_listen.empty()) return absl::OkStatus();
+  ARGMESH_ASSIGN_OR_RETURN(
+      metrics_,
+      MetricsEndpoint::Start(
+          options_.metrics_listen, telemetry_->metrics(),
+          {[this](GaugeSheet& sheet) { rpc_->WriteGauges(sheet); },
+           [this](GaugeSheet& sheet) { WriteEngineGauges(*engine_, sheet); },
+           [this](GaugeSheet& sheet) { telemetry_->WriteGauges(sheet); },
+           WriteProcessGauges}));
+  log().Write(LogLevel::kInfo, "metrics",
+              {{"port", int64_t{metrics_->port()}}});
+  return absl::OkStatus();
 }
 
 Serving::~Serving() = default;

@@ -13,6 +13,7 @@
 #include "server/engine/engine.h"
 #include "server/options.h"
 #include "server/rpc/rpc_server.h"
+#include "server/storage/snapshot_directory.h"
 #include "server/telemetry/metrics_endpoint.h"
 #include "server/telemetry/telemetry.h"
 
@@ -22,6 +23,10 @@ namespace argmesh {
 // addresses, certificates, keys. kInvalidArgument and others, naming the
 // option.
 absl::Status CheckServerOptions(const ServerOptions& options);
+
+// Puts the snapshot in `options.restore` in the place of the data, and tells
+// `out` what it did. As RestoreSnapshot.
+absl::Status Restore(const ServerOptions& options, std::ostream& out);
 
 class Serving {
  public:
@@ -43,10 +48,13 @@ class Serving {
 
  private:
   Serving() = default;
+  absl::Status OpenStore();
+  absl::Status StartMetrics();
 
   ServerOptions options_;
   std::unique_ptr<Telemetry> telemetry_;
   std::unique_ptr<Engine> engine_;
+  std::unique_ptr<SnapshotDirectory> snapshots_;  // uses the engine's meshes
   std::unique_ptr<RpcServer> rpc_;
   std::unique_ptr<MetricsEndpoint> metrics_;  // goes first
 };

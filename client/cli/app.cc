@@ -75,6 +75,7 @@ void AddCommands(CLI::App& app, CommandSet& commands) {
   AddPictureCommands(app, commands);
   AddSampleCommand(app, commands);
   AddInfoCommand(app, commands);
+  AddAdminCommands(app, commands);
   AddKeysCommands(app, commands);
   AddHealthCommand(app, commands);
   AddCompletionCommand(app, commands);

@@ -54,6 +54,7 @@ void AddEvaluateCommand(CLI::App& app, CommandSet& commands);
 void AddPictureCommands(CLI::App& app, CommandSet& commands);
 void AddSampleCommand(CLI::App& app, CommandSet& commands);
 void AddInfoCommand(CLI::App& app, CommandSet& commands);
+void AddAdminCommands(CLI::App& app, CommandSet& commands);
 void AddKeysCommands(CLI::App& app, CommandSet& commands);
 void AddHealthCommand(CLI::App& app, CommandSet& commands);
 void AddCompletionCommand(CLI::App& app, CommandSet& commands);

@@ -44,6 +44,9 @@ enum class ErrorReason {
   kEtagMismatch = 47,
   kGraphVersionMismatch = 48,
   kGraphInvalid = 49,
+  kSnapshotNotFound = 50,
+  kSnapshotExists = 51,
+  kOperationNotFound = 52,
 
   kOverloaded = 60,
   kStoreFull = 61,

@@ -1,11 +1,52 @@
 #include "server/rpc/admin_service.h"
 
+#include <utility>
+#include <vector>
+
+#include "core/base/status_macros.h"
 #include "core/graph/shape_graph.h"
+#include "server/engine/page_token.h"
 #include "server/rpc/convert_mesh.h"
+#include "server/rpc/convert_snapshot.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/snapshot_reactor.h"
+#include "server/rpc/status.h"
 #include "server/rpc/unary_reactor.h"
-#include "server/rpc/unserved_stream.h"
 
 namespace argmesh {
+namespace {
+
+constexpr char kSnapshotList[] = "snapshots";
+
+google::protobuf::Any Packed(const google::protobuf::Message& message) {
+  google::protobuf::Any any;
+  any.PackFrom(message);
+  return any;
+}
+
+absl::Status ListPage(const StoreAdmin& store,
+                      const v1::ListSnapshotsRequest& request,
+                      v1::ListSnapshotsResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const int limit, CheckPageSize(request.page_size()));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string after,
+                           ParsePageToken(kSnapshotList, request.page_token()));
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<SnapshotRecord> records,
+                           store.ListSnapshots());
+  for (const SnapshotRecord& record : records) {
+    if (record.id <= after) continue;
+    if (response->snapshots_size() == limit) {
+      const std::string& last = response->snapshots(limit - 1).name();
+      ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                               ParseSnapshotName("name", last));
+      response->set_next_page_token(MakePageToken(kSnapshotList, id));
+      break;
+    }
+    *response->add_snapshots() = ToProto(record);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
 
 void AdminServiceImpl::FillServerInfo(
     v1::GetServerInfoResponse* response) const {
@@ -46,47 +87,110 @@ grpc::ServerUnaryReactor* AdminServiceImpl::GetServerInfo(
                              });
 }
 
+grpc::ServerUnaryReactor* AdminServiceImpl::Serve(
+    grpc::CallbackServerContext* context,
+    const google::protobuf::Message* request, const char* method,
+    std::function<absl::Status(StoreAdmin&)> body) {
+  if (environment_.store_admin == nullptr) {
+    return UnaryReactor::NotServed(environment_, context, request, method);
+  }
+  return UnaryReactor::Start(environment_, context, request, {method},
+                             [this, body = std::move(body)](const UnaryCall&) {
+                               return body(*environment_.store_admin);
+                             });
+}
+
 grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
     grpc::CallbackServerContext* context,
-    const v1::CreateSnapshotRequest* request, google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "AdminService.CreateSnapshot");
+    const v1::CreateSnapshotRequest* request,
+    google::longrunning::Operation* response) {
+  constexpr char kMethod[] = "AdminService.CreateSnapshot";
+  return Serve(context, request, kMethod,
+               [this, request, response](StoreAdmin& store) -> absl::Status {
+                 const std::string id = request->snapshot_id();
+                 ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
+                 ARGMESH_ASSIGN_OR_RETURN(
+                     *response,
+                     environment_.operations.Start(
+                         kMethod, SnapshotName(id),
+                         [&store, id](const StopToken& stop)
+                             -> absl::StatusOr<google::protobuf::Any> {
+                           ARGMESH_ASSIGN_OR_RETURN(
+                               const SnapshotRecord record,
+                               store.CreateSnapshot(id, stop));
+                           return Packed(ToProto(record));
+                         }));
+                 return absl::OkStatus();
+               });
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::GetSnapshot(
     grpc::CallbackServerContext* context, const v1::GetSnapshotRequest* request,
-    v1::Snapshot*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "AdminService.GetSnapshot");
+    v1::Snapshot* response) {
+  return Serve(context, request, "AdminService.GetSnapshot",
+               [request, response](StoreAdmin& store) -> absl::Status {
+                 ARGMESH_ASSIGN_OR_RETURN(
+                     const std::string id,
+                     ParseSnapshotName("name", request->name()));
+                 ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
+                                          store.GetSnapshot(id));
+                 *response = ToProto(record);
+                 return absl::OkStatus();
+               });
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::ListSnapshots(
     grpc::CallbackServerContext* context,
-    const v1::ListSnapshotsRequest* request, v1::ListSnapshotsResponse*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "AdminService.ListSnapshots");
+    const v1::ListSnapshotsRequest* request,
+    v1::ListSnapshotsResponse* response) {
+  return Serve(context, request, "AdminService.ListSnapshots",
+               [request, response](StoreAdmin& store) {
+                 return ListPage(store, *request, response);
+               });
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::DeleteSnapshot(
     grpc::CallbackServerContext* context,
     const v1::DeleteSnapshotRequest* request, v1::DeleteSnapshotResponse*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "AdminService.DeleteSnapshot");
+  return Serve(context, request, "AdminService.DeleteSnapshot",
+               [request](StoreAdmin& store) -> absl::Status {
+                 ARGMESH_ASSIGN_OR_RETURN(
+                     const std::string id,
+                     ParseSnapshotName("name", request->name()));
+                 return store.DeleteSnapshot(id);
+               });
 }
 
 grpc::ServerWriteReactor<v1::DownloadSnapshotResponse>*
 AdminServiceImpl::DownloadSnapshot(grpc::CallbackServerContext* context,
                                    const v1::DownloadSnapshotRequest* request) {
-  using Reactor = grpc::ServerWriteReactor<v1::DownloadSnapshotResponse>;
-  return StartReactor<UnservedStream<Reactor>>(environment_, context, request,
-                                               "AdminService.DownloadSnapshot");
+  return StartReactor<SnapshotReactor>(environment_, context, request);
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
     grpc::CallbackServerContext* context,
-    const v1::VerifyStorageRequest* request, google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "AdminService.VerifyStorage");
+    const v1::VerifyStorageRequest* request,
+    google::longrunning::Operation* response) {
+  constexpr char kMethod[] = "AdminService.VerifyStorage";
+  return Serve(context, request, kMethod,
+               [this, request, response](StoreAdmin& store) -> absl::Status {
+                 if (!request->collection().empty()) {
+                   return FieldInvalid(
+                       "collection",
+                       "not served by this version; leave it empty");
+                 }
+                 ARGMESH_ASSIGN_OR_RETURN(
+                     *response,
+                     environment_.operations.Start(
+                         kMethod, "",
+                         [&store](const StopToken& stop)
+                             -> absl::StatusOr<google::protobuf::Any> {
+                           ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
+                                                    store.Verify(stop));
+                           return Packed(ToProto(report));
+                         }));
+                 return absl::OkStatus();
+               });
 }
 
 }  // namespace argmesh

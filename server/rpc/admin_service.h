@@ -2,6 +2,8 @@
 #ifndef ARGMESH_SERVER_RPC_ADMIN_SERVICE_H_
 #define ARGMESH_SERVER_RPC_ADMIN_SERVICE_H_
 
+#include <functional>
+
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "argmesh/v1/admin_service.grpc.pb.h"
@@ -43,6 +45,11 @@ class AdminServiceImpl final : public v1::AdminService::CallbackService {
       google::longrunning::Operation* response) override;
 
  private:
+  // `body` on the pool; METHOD_NOT_SERVED where there is no StoreAdmin.
+  grpc::ServerUnaryReactor* Serve(
+      grpc::CallbackServerContext* context,
+      const google::protobuf::Message* request, const char* method,
+      std::function<absl::Status(StoreAdmin&)> body);
   void FillServerInfo(v1::GetServerInfoResponse* response) const;
 
   ServiceEnvironment& environment_;

@@ -1,4 +1,4 @@
-// google.longrunning.Operations: declared, not served yet.
+// google.longrunning.Operations.
 #ifndef ARGMESH_SERVER_RPC_OPERATIONS_SERVICE_H_
 #define ARGMESH_SERVER_RPC_OPERATIONS_SERVICE_H_
 

@@ -7,6 +7,7 @@
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/engine/uid.h"
 #include "server/rpc/status.h"
 
 namespace argmesh {
@@ -66,6 +67,24 @@ absl::StatusOr<ShapeRef> ParseShapeName(std::string_view field,
   return ShapeRef{.collection = ids[0], .id = ids[1]};
 }
 
+absl::StatusOr<std::string> ParseSnapshotName(std::string_view field,
+                                              std::string_view name) {
+  if (name.empty()) return FieldRequired(field);
+  const auto ids = IdsOf(name, {"snapshots"});
+  if (ids.empty()) return NameInvalid(field, name, "snapshots/{snapshot}");
+  return ids[0];
+}
+
+absl::StatusOr<std::string> ParseOperationName(std::string_view field,
+                                               std::string_view name) {
+  constexpr std::string_view kPrefix = "operations/";
+  if (name.empty()) return FieldRequired(field);
+  if (!name.starts_with(kPrefix) || !IsUid(name.substr(kPrefix.size()))) {
+    return NameInvalid(field, name, "operations/{uuid}");
+  }
+  return std::string(name.substr(kPrefix.size()));
+}
+
 absl::Status CheckResourceId(std::string_view field, std::string_view id) {
   if (id.empty()) return FieldRequired(field);
   if (IsIdentifier(id)) return absl::OkStatus();
@@ -78,6 +97,14 @@ std::string CollectionName(std::string_view collection) {
 
 std::string ShapeName(std::string_view collection, std::string_view shape) {
   return CollectionName(collection) + "/shapes/" + std::string(shape);
+}
+
+std::string SnapshotName(std::string_view snapshot) {
+  return "snapshots/" + std::string(snapshot);
+}
+
+std::string OperationName(std::string_view operation) {
+  return "operations/" + std::string(operation);
 }
 
 }  // namespace argmesh

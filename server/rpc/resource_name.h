@@ -22,8 +22,16 @@ absl::StatusOr<ShapeRef> ParseShapeName(std::string_view field,
 // An id on its own.
 absl::Status CheckResourceId(std::string_view field, std::string_view id);
 
+// The snapshot's id, the operation's UUID.
+absl::StatusOr<std::string> ParseSnapshotName(std::string_view field,
+                                              std::string_view name);
+absl::StatusOr<std::string> ParseOperationName(std::string_view field,
+                                               std::string_view name);
+
 std::string CollectionName(std::string_view collection);
 std::string ShapeName(std::string_view collection, std::string_view shape);
+std::string SnapshotName(std::string_view snapshot);
+std::string OperationName(std::string_view operation);
 
 }  // namespace argmesh
 

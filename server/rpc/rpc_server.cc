@@ -124,6 +124,7 @@ class RpcServer::Impl {
         admin_(environment_),
         operations_(environment_) {
     environment_.access.SetKeys(options.keys);
+    environment_.store_admin = options.store_admin;
   }
 
   ~Impl() { Shutdown(absl::Now()); }
@@ -170,6 +171,7 @@ class RpcServer::Impl {
     const absl::Time now = absl::Now();
     environment_.calls.StartDrain(
         std::max(absl::ZeroDuration(), deadline - now));
+    environment_.operations.CancelAll();
     clean_ = environment_.calls.WaitUntilIdle(deadline);
     health_->Detach();
     // Of ours nothing is left, or it is late; only health watches still run.

@@ -41,6 +41,8 @@ struct RpcServerOptions {
   // known.
   bool insecure_remote = false;
   bool reflection = true;
+  // Must outlive the server; none: snapshots and verification are not served.
+  StoreAdmin* store_admin = nullptr;
   std::string version;
   ServiceLimits limits;
 };

@@ -9,9 +9,11 @@
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
 #include "server/engine/request_rules.h"
+#include "server/engine/store_admin.h"
 #include "server/rpc/access_control.h"
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
+#include "server/rpc/operation_registry.h"
 #include "server/telemetry/telemetry.h"
 
 namespace argmesh {
@@ -44,7 +46,8 @@ struct ServiceEnvironment {
             absl::ToInt64Milliseconds(the_limits.stream_idle_timeout)),
         searches("searches", the_limits.max_inflight_searches),
         uploads("uploads", the_limits.max_inflight_uploads),
-        ingests("ingest streams", the_limits.max_inflight_ingests) {}
+        ingests("ingest streams", the_limits.max_inflight_ingests),
+        operations(the_telemetry.log()) {}
 
   absl::Duration stream_idle_timeout() const {
     return absl::Milliseconds(stream_idle_ms.load());
@@ -66,6 +69,8 @@ struct ServiceEnvironment {
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
+  StoreAdmin* store_admin = nullptr;  // none: its rpcs are not served
+  OperationRegistry operations;
   AccessControl access;
 };
 

@@ -15,6 +15,7 @@
 #include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/restore.h"
 
 namespace argmesh {
 namespace {
@@ -86,8 +87,11 @@ absl::StatusOr<std::shared_ptr<DataDirectory>> DataDirectory::Open(
   ARGMESH_ASSIGN_OR_RETURN(PosixFile lock, Lock(absolute));
   std::shared_ptr<DataDirectory> directory(
       new DataDirectory(absolute, options, std::move(lock)));
+  ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
+  ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->blobs_path()));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->incoming_path()));
+  ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->snapshots_path()));
   return directory;
 }
 

@@ -99,6 +99,7 @@ struct DirectoryMeshStore::Shared {
   // Guards the pins; held over a removal, so that nothing is pinned in it.
   std::mutex mutex;
   std::map<Sha256Digest, int> pins;
+  int holds = 0;  // of HoldRemovals, guarded too
 
   fs::path PathOf(const Sha256Digest& sha256) const {
     const std::string name = ToHex(sha256);
@@ -244,12 +245,24 @@ absl::StatusOr<std::unique_ptr<MeshReader>> DirectoryMeshStore::Open(
 absl::Status DirectoryMeshStore::RemoveUnreferenced(
     const Sha256Digest& sha256, const IsReferenced& is_referenced) {
   const std::lock_guard lock(shared_->mutex);
-  if (shared_->pins.contains(sha256)) return absl::OkStatus();
+  if (shared_->holds > 0 || shared_->pins.contains(sha256)) {
+    return absl::OkStatus();
+  }
   ARGMESH_ASSIGN_OR_RETURN(const bool referenced, is_referenced(sha256));
   if (referenced) return absl::OkStatus();
   const fs::path path = shared_->PathOf(sha256);
   if (::unlink(path.c_str()) == 0 || errno == ENOENT) return absl::OkStatus();
   return FileError("unlink", path, errno);
+}
+
+MeshPin DirectoryMeshStore::HoldRemovals() {
+  const std::lock_guard lock(shared_->mutex);
+  ++shared_->holds;
+  return MeshPin(static_cast<const void*>(this),
+                 [shared = shared_](const void*) {
+                   const std::lock_guard release(shared->mutex);
+                   --shared->holds;
+                 });
 }
 
 absl::StatusOr<int64_t> DirectoryMeshStore::Sweep(

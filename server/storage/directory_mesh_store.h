@@ -33,6 +33,10 @@ class DirectoryMeshStore : public MeshStore {
   absl::StatusOr<int64_t> Sweep(absl::Time older_than,
                                 const IsReferenced& is_referenced) override;
 
+  // While what it returns lives no mesh is removed; what would have been goes
+  // with the sweep of the next start.
+  MeshPin HoldRemovals();
+
  private:
   struct Shared;  // what staged meshes and pins keep alive
 

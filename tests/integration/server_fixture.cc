@@ -29,20 +29,6 @@ std::filesystem::path MakeFolder() {
   return path;
 }
 
-std::unique_ptr<Engine> OpenEngine(const std::filesystem::path& folder,
-                                   const EngineOptions& options) {
-  auto directory = DataDirectory::Open(folder);
-  EXPECT_TRUE(directory.ok()) << directory.status();
-  auto meshes = DirectoryMeshStore::Open(*directory);
-  EXPECT_TRUE(meshes.ok()) << meshes.status();
-  auto catalog = SqliteCatalog::Open(*directory);
-  EXPECT_TRUE(catalog.ok()) << catalog.status();
-  auto engine =
-      Engine::Create(options, *std::move(catalog), *std::move(meshes));
-  EXPECT_TRUE(engine.ok()) << engine.status();
-  return *std::move(engine);
-}
-
 std::string OffOf(const TriangleMesh& mesh) {
   std::string text =
       absl::StrCat("OFF\n", mesh.V.rows(), " ", mesh.F.rows(), " 0\n");
@@ -73,8 +59,25 @@ TestServer::~TestServer() {
   std::filesystem::remove_all(folder_);
 }
 
+void TestServer::OpenEngine() {
+  auto directory = DataDirectory::Open(folder_, options_.directory);
+  ASSERT_TRUE(directory.ok()) << directory.status();
+  auto meshes = DirectoryMeshStore::Open(*directory);
+  ASSERT_TRUE(meshes.ok()) << meshes.status();
+  auto snapshots = SnapshotDirectory::Open(*directory, **meshes);
+  ASSERT_TRUE(snapshots.ok()) << snapshots.status();
+  auto catalog = SqliteCatalog::Open(*directory);
+  ASSERT_TRUE(catalog.ok()) << catalog.status();
+  auto engine =
+      Engine::Create(options_.engine, *std::move(catalog), *std::move(meshes));
+  ASSERT_TRUE(engine.ok()) << engine.status();
+  engine_ = *std::move(engine);
+  snapshots_ = *std::move(snapshots);
+  options_.rpc.store_admin = snapshots_.get();
+}
+
 void TestServer::Start() {
-  engine_ = OpenEngine(folder_, options_.engine);
+  ASSERT_NO_FATAL_FAILURE(OpenEngine());
   auto rpc = RpcServer::Start(options_.rpc, *engine_, *telemetry_);
   ASSERT_TRUE(rpc.ok()) << rpc.status();
   rpc_ = *std::move(rpc);
@@ -90,6 +93,7 @@ void TestServer::Start() {
   ingest_ = v1::IngestService::NewStub(channel_);
   search_ = v1::SearchService::NewStub(channel_);
   admin_ = v1::AdminService::NewStub(channel_);
+  operations_ = google::longrunning::Operations::NewStub(channel_);
 }
 
 void TestServer::Restart() {
@@ -105,6 +109,7 @@ bool TestServer::Stop(absl::Duration grace) {
     const absl::Status closed = engine_->Close();
     EXPECT_TRUE(closed.ok()) << closed;
   }
+  snapshots_.reset();
   engine_.reset();
   return clean;
 }

@@ -21,8 +21,11 @@
 #include "argmesh/v1/ingest_service.grpc.pb.h"
 #include "argmesh/v1/search_service.grpc.pb.h"
 #include "argmesh/v1/shape_service.grpc.pb.h"
+#include "google/longrunning/operations.grpc.pb.h"
 #include "server/engine/engine.h"
 #include "server/rpc/rpc_server.h"
+#include "server/storage/data_directory.h"
+#include "server/storage/snapshot_directory.h"
 #include "server/telemetry/telemetry.h"
 
 namespace argmesh {
@@ -31,6 +34,7 @@ struct TestServerOptions {
   EngineOptions engine;
   RpcServerOptions rpc;
   TelemetryOptions telemetry;
+  DataDirectoryOptions directory;
 };
 
 class TestServer {
@@ -56,6 +60,7 @@ class TestServer {
   v1::IngestService::Stub& ingest() { return *ingest_; }
   v1::SearchService::Stub& search() { return *search_; }
   v1::AdminService::Stub& admin() { return *admin_; }
+  google::longrunning::Operations::Stub& operations() { return *operations_; }
 
   // A collection of small samples, so that a shape takes little time.
   void MakeCollection(const std::string& id, bool store_meshes = true);
@@ -64,11 +69,14 @@ class TestServer {
                      const std::string& off);
 
  private:
+  void OpenEngine();
+
   TestServerOptions options_;
   std::filesystem::path folder_;
   std::ostringstream log_text_;
   std::unique_ptr<Telemetry> telemetry_;
   std::unique_ptr<Engine> engine_;
+  std::unique_ptr<SnapshotDirectory> snapshots_;  // uses the engine's meshes
   std::unique_ptr<RpcServer> rpc_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::CollectionService::Stub> collections_;
@@ -76,6 +84,7 @@ class TestServer {
   std::unique_ptr<v1::IngestService::Stub> ingest_;
   std::unique_ptr<v1::SearchService::Stub> search_;
   std::unique_ptr<v1::AdminService::Stub> admin_;
+  std::unique_ptr<google::longrunning::Operations::Stub> operations_;
 };
 
 // The ErrorInfo of a failed call.

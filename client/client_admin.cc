@@ -1,0 +1,129 @@
+// Snapshots and checks of Client.
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "client/client.h"
+#include "client/client_parts.h"
+#include "core/base/sha256.h"
+#include "core/base/status_macros.h"
+
+namespace argmesh {
+namespace {
+
+using google::longrunning::Operation;
+
+// The server answers a wait at least so often: well within any call's time.
+constexpr int64_t kWaitSeconds = 5;
+
+// Waits for the end of an operation; its response.
+template <typename Response>
+absl::StatusOr<Response> Await(Client::Parts& parts, Operation operation) {
+  while (!operation.done()) {
+    google::longrunning::WaitOperationRequest request;
+    request.set_name(operation.name());
+    request.mutable_timeout()->set_seconds(kWaitSeconds);
+    ARGMESH_ASSIGN_OR_RETURN(
+        operation,
+        parts.Call<Operation>(Repeat::kSafe, [&](grpc::ClientContext* context,
+                                                 auto* response) {
+          return parts.operations->WaitOperation(context, request, response);
+        }));
+  }
+  if (operation.has_error()) return ToStatus(operation.error());
+  Response response;
+  if (!operation.response().UnpackTo(&response)) {
+    return absl::InternalError("the operation's answer is of another type");
+  }
+  return response;
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Snapshot> Client::CreateSnapshot(std::string_view id) {
+  v1::CreateSnapshotRequest request;
+  request.set_snapshot_id(std::string(id));
+  ARGMESH_ASSIGN_OR_RETURN(
+      Operation operation,
+      parts_->Call<Operation>(
+          Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+            return parts_->admin->CreateSnapshot(context, request, response);
+          }));
+  return Await<v1::Snapshot>(*parts_, std::move(operation));
+}
+
+absl::StatusOr<v1::VerifyStorageResponse> Client::VerifyStorage() {
+  const v1::VerifyStorageRequest request;
+  ARGMESH_ASSIGN_OR_RETURN(
+      Operation operation,
+      parts_->Call<Operation>(
+          Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+            return parts_->admin->VerifyStorage(context, request, response);
+          }));
+  return Await<v1::VerifyStorageResponse>(*parts_, std::move(operation));
+}
+
+absl::StatusOr<std::vector<v1::Snapshot>> Client::ListSnapshots() {
+  std::vector<v1::Snapshot> snapshots;
+  v1::ListSnapshotsRequest request;
+  do {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const auto page,
+        parts_->Call<v1::ListSnapshotsResponse>(
+            Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+              return parts_->admin->ListSnapshots(context, request, response);
+            }));
+    snapshots.insert(snapshots.end(), page.snapshots().begin(),
+                     page.snapshots().end());
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return snapshots;
+}
+
+absl::Status Client::DeleteSnapshot(std::string_view name) {
+  v1::DeleteSnapshotRequest request;
+  request.set_name(std::string(name));
+  return parts_
+      ->Call<v1::DeleteSnapshotResponse>(
+          Repeat::kNever,
+          [&](grpc::ClientContext* context, auto* response) {
+            return parts_->admin->DeleteSnapshot(context, request, response);
+          })
+      .status();
+}
+
+absl::StatusOr<v1::Snapshot> Client::DownloadSnapshot(
+    std::string_view name,
+    const std::function<absl::Status(std::string_view)>& write) {
+  v1::DownloadSnapshotRequest request;
+  request.set_name(std::string(name));
+  grpc::ClientContext context;
+  // However large it is: the server cuts a stream that stands still.
+  parts_->Prepare(absl::InfiniteFuture(), context);
+  const auto reader = parts_->admin->DownloadSnapshot(&context, request);
+  v1::Snapshot snapshot;
+  Sha256Hasher hasher;
+  int64_t size = 0;
+  absl::Status written;
+  v1::DownloadSnapshotResponse response;
+  while (reader->Read(&response)) {
+    if (response.has_snapshot()) snapshot = response.snapshot();
+    hasher.Update(response.chunk());
+    size += static_cast<int64_t>(response.chunk().size());
+    written = write(response.chunk());
+    if (!written.ok()) {
+      context.TryCancel();
+      break;
+    }
+  }
+  const grpc::Status status = reader->Finish();
+  ARGMESH_RETURN_IF_ERROR(written);
+  if (!status.ok()) return parts_->Explain(status);
+  if (size != snapshot.size_bytes() ||
+      ToHex(hasher.Finish()) != snapshot.sha256()) {
+    return absl::DataLossError(absl::StrFormat(
+        "%s came with other bytes than the server has", std::string(name)));
+  }
+  return snapshot;
+}
+
+}  // namespace argmesh

@@ -1,0 +1,179 @@
+#include "server/rpc/operation_registry.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "absl/time/clock.h"
+#include "argmesh/v1/admin_service.pb.h"
+#include "core/base/status_macros.h"
+#include "server/engine/error_reason.h"
+#include "server/engine/uid.h"
+#include "server/rpc/call_scope.h"
+#include "server/rpc/convert_mesh.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
+
+namespace argmesh {
+namespace {
+
+using google::longrunning::Operation;
+using google::protobuf::Any;
+
+absl::Status NotFound(std::string_view id) {
+  return MakeError(
+      ErrorReason::kOperationNotFound,
+      absl::StrFormat("there is no operation %s; operations end with the "
+                      "process",
+                      std::string(id)),
+      {{"operation", std::string(id)}});
+}
+
+void SetMetadata(Operation& operation,
+                 const std::function<void(v1::OperationMetadata&)>& change) {
+  v1::OperationMetadata metadata;
+  operation.metadata().UnpackTo(&metadata);
+  change(metadata);
+  operation.mutable_metadata()->PackFrom(metadata);
+}
+
+}  // namespace
+
+OperationRegistry::~OperationRegistry() {
+  CancelAll();
+  std::unique_lock lock(mutex_);
+  ended_.wait(lock, [this] { return running_.empty(); });
+}
+
+absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
+                                                   std::string_view resource,
+                                                   Work work) {
+  const std::string id = MakeUid();
+  auto entry = std::make_shared<Entry>();
+  entry->operation.set_name(OperationName(id));
+  SetMetadata(entry->operation, [&](v1::OperationMetadata& metadata) {
+    metadata.set_method(std::string(method));
+    metadata.set_resource(std::string(resource));
+    *metadata.mutable_create_time() = ToTimestamp(absl::Now());
+  });
+  const Operation begun = entry->operation;
+  {
+    const std::lock_guard lock(mutex_);
+    if (running_.size() >= kMaxRunning) {
+      return WithRetryDelay(
+          MakeError(ErrorReason::kOverloaded,
+                    absl::StrFormat("%d operations are running, the limit",
+                                    kMaxRunning),
+                    {{"limit", absl::StrFormat("%d", kMaxRunning)},
+                     {"what", "operations"}}),
+          absl::Seconds(10));
+    }
+    running_.push_back(entry);
+    entry->number = next_number_++;
+    entries_.emplace(id, entry);
+    DropOldest();
+  }
+  try {
+    // Not joined: the destructor waits until none is left.
+    std::thread([this, entry, work = std::move(work)] {
+      Run(entry, work);
+    }).detach();
+  } catch (...) {
+    End(*entry, CallScope::CurrentException());
+  }
+  return begun;
+}
+
+void OperationRegistry::Run(const std::shared_ptr<Entry>& entry,
+                            const Work& work) {
+  absl::StatusOr<Any> result = absl::CancelledError();
+  try {
+    result = work(StopToken(entry->stop.get_token(), absl::InfiniteFuture()));
+  } catch (...) {
+    result = CallScope::CurrentException();
+  }
+  End(*entry, result);
+}
+
+void OperationRegistry::End(Entry& entry, const absl::StatusOr<Any>& result) {
+  const std::string name = entry.operation.name();
+  log_.Write(result.ok() ? LogLevel::kInfo : LogLevel::kWarning,
+             "operation ended",
+             {{"operation", name}, {"status", result.status().ToString()}});
+  const std::lock_guard lock(mutex_);
+  SetMetadata(entry.operation, [](v1::OperationMetadata& metadata) {
+    *metadata.mutable_end_time() = ToTimestamp(absl::Now());
+  });
+  entry.operation.set_done(true);
+  if (result.ok()) {
+    *entry.operation.mutable_response() = *result;
+  } else {
+    *entry.operation.mutable_error() = ToProtoStatus(result.status(), name);
+  }
+  std::erase_if(running_,
+                [&](const auto& other) { return other.get() == &entry; });
+  // Under the lock: the registry may be gone right after it.
+  ended_.notify_all();
+}
+
+std::shared_ptr<OperationRegistry::Entry> OperationRegistry::Find(
+    std::string_view id) const {
+  const auto it = entries_.find(id);
+  return it == entries_.end() ? nullptr : it->second;
+}
+
+void OperationRegistry::DropOldest() {
+  if (entries_.size() <= kMaxKept) return;
+  auto oldest = entries_.end();
+  for (auto it = entries_.begin(); it != entries_.end(); ++it) {
+    if (!it->second->operation.done()) continue;
+    if (oldest == entries_.end() ||
+        it->second->number < oldest->second->number) {
+      oldest = it;
+    }
+  }
+  if (oldest != entries_.end()) entries_.erase(oldest);
+}
+
+absl::StatusOr<Operation> OperationRegistry::Get(std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<Entry> entry = Find(id);
+  if (entry == nullptr) return NotFound(id);
+  return entry->operation;
+}
+
+absl::Status OperationRegistry::Cancel(std::string_view id) {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<Entry> entry = Find(id);
+  if (entry == nullptr) return NotFound(id);
+  entry->stop.request_stop();
+  return absl::OkStatus();
+}
+
+absl::Status OperationRegistry::Delete(std::string_view id) {
+  const std::lock_guard lock(mutex_);
+  const auto it = entries_.find(id);
+  if (it == entries_.end()) return NotFound(id);
+  entries_.erase(it);
+  return absl::OkStatus();
+}
+
+std::vector<Operation> OperationRegistry::List(std::string_view after_id,
+                                               int limit) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Operation> operations;
+  for (auto it = entries_.upper_bound(after_id);
+       it != entries_.end() && static_cast<int>(operations.size()) < limit;
+       ++it) {
+    operations.push_back(it->second->operation);
+  }
+  return operations;
+}
+
+void OperationRegistry::CancelAll() {
+  const std::lock_guard lock(mutex_);
+  for (const auto& entry : running_) entry->stop.request_stop();
+}
+
+}  // namespace argmesh

@@ -1,0 +1,80 @@
+// Long-running work: started by one call, watched and ended by others.
+//
+// Each operation has a thread of its own; at most kMaxRunning run. They live in
+// memory: what has ended is remembered until kMaxKept are, and everything ends
+// with the process. Thread-safe.
+#ifndef ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
+#define ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
+
+#include <google/protobuf/any.pb.h>
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
+#include "google/longrunning/operations.pb.h"
+#include "server/telemetry/event_log.h"
+
+namespace argmesh {
+
+class OperationRegistry {
+ public:
+  static constexpr size_t kMaxRunning = 4;
+  static constexpr size_t kMaxKept = 1000;
+
+  // The response, packed.
+  using Work =
+      std::function<absl::StatusOr<google::protobuf::Any>(const StopToken&)>;
+
+  // How operations end goes to `log`, which must outlive the registry.
+  explicit OperationRegistry(EventLog& log) : log_(log) {}
+  ~OperationRegistry();  // CancelAll, and waits for the end
+
+  // `method` is the rpc, `resource` what it is about. OVERLOADED.
+  absl::StatusOr<google::longrunning::Operation> Start(
+      std::string_view method, std::string_view resource, Work work);
+
+  // By UUID. OPERATION_NOT_FOUND.
+  absl::StatusOr<google::longrunning::Operation> Get(std::string_view id) const;
+  // It ends soon with CANCELLED, unless it was nearly done.
+  absl::Status Cancel(std::string_view id);
+  // Forgets it; it runs on.
+  absl::Status Delete(std::string_view id);
+  // At most `limit` after `after_id`, by UUID.
+  std::vector<google::longrunning::Operation> List(std::string_view after_id,
+                                                   int limit) const;
+
+  void CancelAll();
+
+ private:
+  struct Entry {
+    google::longrunning::Operation operation;
+    int64_t number = 0;  // in the order of their starts
+    std::stop_source stop;
+  };
+
+  void Run(const std::shared_ptr<Entry>& entry, const Work& work);
+  void End(Entry& entry, const absl::StatusOr<google::protobuf::Any>& result);
+  std::shared_ptr<Entry> Find(std::string_view id) const;  // with the mutex
+  void DropOldest();                                       // with the mutex
+
+  EventLog& log_;
+  mutable std::mutex mutex_;
+  std::condition_variable ended_;
+  std::map<std::string, std::shared_ptr<Entry>, std::less<>> entries_;
+  int64_t next_number_ = 0;
+  std::vector<std::shared_ptr<Entry>> running_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_

@@ -1,0 +1,38 @@
+#include "server/rpc/snapshot_reactor.h"
+
+#include <utility>
+
+#include "core/base/status_macros.h"
+#include "server/rpc/convert_snapshot.h"
+#include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
+
+namespace argmesh {
+
+SnapshotReactor::SnapshotReactor(ServiceEnvironment& environment,
+                                 grpc::CallbackServerContext* context,
+                                 const v1::DownloadSnapshotRequest* request)
+    : WritingReactor(environment, context, request,
+                     "AdminService.DownloadSnapshot"),
+      request_(request) {}
+
+absl::Status SnapshotReactor::Open(v1::DownloadSnapshotResponse& first) {
+  StoreAdmin* store = environment().store_admin;
+  if (store == nullptr) return MethodNotServed("AdminService.DownloadSnapshot");
+  ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                           ParseSnapshotName("name", request_->name()));
+  ARGMESH_ASSIGN_OR_RETURN(reader_, store->OpenSnapshot(id));
+  *first.mutable_snapshot() = ToProto(reader_->record());
+  return absl::OkStatus();
+}
+
+absl::StatusOr<bool> SnapshotReactor::Continue(
+    v1::DownloadSnapshotResponse& next) {
+  ARGMESH_ASSIGN_OR_RETURN(std::string chunk,
+                           reader_->Read(kDownloadChunkBytes));
+  if (chunk.empty()) return false;
+  next.set_chunk(std::move(chunk));
+  return true;
+}
+
+}  // namespace argmesh

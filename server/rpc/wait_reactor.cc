@@ -1,0 +1,66 @@
+#include "server/rpc/wait_reactor.h"
+
+#include <algorithm>
+
+#include "server/rpc/resource_name.h"
+
+namespace argmesh {
+namespace {
+
+// The answer must reach the caller before the deadline.
+constexpr absl::Duration kMargin = absl::Milliseconds(200);
+
+}  // namespace
+
+WaitReactor::WaitReactor(
+    ServiceEnvironment& environment, grpc::CallbackServerContext* context,
+    const google::longrunning::WaitOperationRequest* request,
+    google::longrunning::Operation* response)
+    : GuardedReactor(environment, context, request, "Operations.WaitOperation"),
+      request_(request),
+      response_(response) {}
+
+void WaitReactor::Begin() {
+  const absl::StatusOr<std::string> id =
+      ParseOperationName("name", request_->name());
+  if (!id.ok()) {
+    FinishOnce(id.status());
+    return;
+  }
+  const absl::Time now = absl::Now();
+  {
+    const std::lock_guard lock(look_mutex_);
+    id_ = *id;
+    end_ = scope().deadline() - kMargin;
+    if (request_->has_timeout()) {
+      end_ = std::min(end_, now + absl::Seconds(request_->timeout().seconds()) +
+                                absl::Nanoseconds(request_->timeout().nanos()));
+    }
+  }
+  Look(now);
+}
+
+void WaitReactor::Look(absl::Time now) {
+  const std::lock_guard lock(look_mutex_);
+  if (id_.empty() || answered_) return;
+  absl::StatusOr<google::longrunning::Operation> operation =
+      environment().operations.Get(id_);
+  if (operation.ok() && !operation->done() && now < end_) return;
+  answered_ = true;
+  if (operation.ok()) *response_ = *std::move(operation);
+  FinishOnce(operation.status());
+}
+
+void WaitReactor::OnTick(absl::Time now) {
+  Guard([&] { Look(now); });
+}
+
+void WaitReactor::OnDrain(absl::Duration) {
+  Guard([this] { Look(absl::InfiniteFuture()); });
+}
+
+void WaitReactor::Cancelled() {
+  FinishOnce(absl::CancelledError("the client went away"));
+}
+
+}  // namespace argmesh

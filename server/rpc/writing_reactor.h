@@ -1,0 +1,91 @@
+// The base of reactors that answer with a stream of chunks: one message after
+// the other, made on the pool, and it is noticed when nobody takes them.
+//
+// Holds one message at a time.
+#ifndef ARGMESH_SERVER_RPC_WRITING_REACTOR_H_
+#define ARGMESH_SERVER_RPC_WRITING_REACTOR_H_
+
+#include <mutex>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
+#include "server/rpc/guarded_reactor.h"
+
+namespace argmesh {
+
+// Of one message's chunk.
+inline constexpr int64_t kDownloadChunkBytes = 256 << 10;
+
+template <typename Response>
+class WritingReactor
+    : public GuardedReactor<grpc::ServerWriteReactor<Response>> {
+ public:
+  using GuardedReactor<grpc::ServerWriteReactor<Response>>::GuardedReactor;
+
+  void OnWriteDone(bool ok) final {
+    this->Guard([&] {
+      {
+        const std::lock_guard lock(this->scope().mutex());
+        writing_since_ = absl::InfiniteFuture();
+      }
+      if (!ok) {
+        this->FinishOnce(absl::CancelledError("the client went away"));
+        return;
+      }
+      this->RunPatiently(WorkClass::kQuick, [this] { SendNext(); });
+    });
+  }
+
+  void OnTick(absl::Time now) final {
+    this->ResubmitWaiting();
+    const std::lock_guard lock(this->scope().mutex());
+    // A write that nobody takes blocks the end of the call too: only a
+    // cancellation gets through.
+    if (now - writing_since_ > this->environment().stream_idle_timeout()) {
+      this->scope().context()->TryCancel();
+    }
+  }
+
+ protected:
+  // The first message, on the pool.
+  virtual absl::Status Open(Response& first) = 0;
+  // The next one; false when there is none.
+  virtual absl::StatusOr<bool> Continue(Response& next) = 0;
+
+  void Begin() final {
+    this->Run(WorkClass::kQuick, [this] {
+      if (const absl::Status opened = Open(response_); !opened.ok()) {
+        this->FinishOnce(opened);
+      } else {
+        Send();
+      }
+    });
+  }
+
+ private:
+  void SendNext() {
+    const absl::StatusOr<bool> more = Continue(response_);
+    if (more.ok() && *more) {
+      Send();
+    } else {
+      this->FinishOnce(more.status());
+    }
+  }
+
+  void Send() {
+    const std::lock_guard lock(this->scope().mutex());
+    if (this->scope().finished()) return;
+    writing_since_ = absl::Now();
+    this->StartWrite(&response_);
+  }
+
+  Response response_;
+  // With the scope's mutex: when the write under way began.
+  absl::Time writing_since_ = absl::InfiniteFuture();
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_WRITING_REACTOR_H_
