@@ -1,0 +1,316 @@
+// Random operations on the SQLite catalog and on one in memory: every answer is
+// the same, also after the catalog was closed and opened again.
+//
+// ARGMESH_MODEL_OPERATIONS operations, 1,500 when not set; from
+// ARGMESH_MODEL_SEED, 1 when not set.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/random.h"
+#include "server/engine/record_codec.h"
+#include "server/storage/data_directory.h"
+#include "server/storage/sqlite_catalog.h"
+#include "tests/support/catalog_samples.h"
+#include "tests/support/memory_catalog.h"
+#include "tests/support/temporary_directory.h"
+
+namespace argmesh {
+namespace {
+
+constexpr uint64_t kCollections = 4;
+constexpr uint64_t kShapes = 12;  // ids of each collection
+constexpr uint64_t kMeshes = 30;
+constexpr double kRestart = 0.004;
+constexpr double kCompare = 0.02;
+
+uint64_t NumberOf(const char* variable, uint64_t otherwise) {
+  const char* text = getenv(variable);
+  return text == nullptr ? otherwise : strtoull(text, nullptr, 10);
+}
+
+// An answer as text: its bytes, or its error.
+template <typename T, typename Show>
+std::string Text(const absl::StatusOr<T>& answer, const Show& show) {
+  return answer.ok() ? show(*answer) : answer.status().ToString();
+}
+
+std::string Digests(std::vector<Sha256Digest> digests) {
+  std::sort(digests.begin(), digests.end());
+  std::string text;
+  for (const Sha256Digest& digest : digests) {
+    absl::StrAppend(&text, " ", ToHex(digest));
+  }
+  return text;
+}
+
+std::string Show(const ShapeWritten& written) {
+  return SerializeShapeWritten(written) + Digests(written.unreferenced);
+}
+
+// One operation on any catalog; the same text from equal catalogs.
+using Operation = std::function<std::string(Catalog&)>;
+
+class Operations {
+ public:
+  explicit Operations(uint64_t seed) : random_(seed) {}
+
+  // What the next one does, in words, comes first in its text.
+  Operation Next(Catalog& model) {
+    switch (random_.Below(12)) {
+      case 0:
+        return InsertCollection();
+      case 1:
+        return random_.Below(4) == 0 ? DeleteCollection(model)
+                                     : UpdateCollection(model);
+      case 2:
+      case 3:
+      case 4:
+      case 5:
+        return PutShape(model);
+      case 6:
+        return UpdateShape(model);
+      case 7:
+        return DeleteShape(model);
+      default:
+        return Read(model);
+    }
+  }
+
+  Random& random() { return random_; }
+
+ private:
+  std::string CollectionId() {
+    return absl::StrCat("c", random_.Below(kCollections));
+  }
+  std::string ShapeId() { return absl::StrCat("s", random_.Below(kShapes)); }
+
+  // Mostly none, sometimes the stored one, sometimes an old one.
+  std::string Etag(const std::string& stored) {
+    switch (random_.Below(4)) {
+      case 0:
+        return stored;
+      case 1:
+        return "\"another\"";
+      default:
+        return "";
+    }
+  }
+  std::string EtagOfShape(Catalog& model, const std::string& collection,
+                          const std::string& id) {
+    const auto record = model.GetShape(collection, id);
+    return Etag(record.ok() ? ShapeEtag(*record) : "");
+  }
+  std::string EtagOfCollection(Catalog& model, const std::string& id) {
+    const auto record = model.GetCollection(id);
+    return Etag(record.ok() ? CollectionEtag(*record) : "");
+  }
+
+  // Few ids, so that requests come again, as the same and as others.
+  RequestStamp Stamp(std::string_view method, std::string_view asked) {
+    if (random_.Below(3) != 0) return {};
+    return SampleRequest(static_cast<char>('0' + random_.Below(10)), method,
+                         asked);
+  }
+
+  Operation InsertCollection() {
+    const CollectionRecord record = SampleCollection(CollectionId());
+    const RequestStamp stamp = Stamp("InsertCollection", record.id);
+    return [=](Catalog& catalog) {
+      return "insert " + record.id + ": " +
+             Text(catalog.InsertCollection(record, stamp),
+                  SerializeCollectionRecord);
+    };
+  }
+
+  Operation UpdateCollection(Catalog& model) {
+    CollectionPatch patch;
+    patch.id = CollectionId();
+    patch.display_name = absl::StrCat("name ", random_.Below(100));
+    patch.etag = EtagOfCollection(model, patch.id);
+    patch.update_time = absl::FromUnixSeconds(
+        1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
+    return [=](Catalog& catalog) {
+      return "update " + patch.id + ": " +
+             Text(catalog.UpdateCollection(patch), SerializeCollectionRecord);
+    };
+  }
+
+  Operation DeleteCollection(Catalog& model) {
+    CollectionDelete removal;
+    removal.id = CollectionId();
+    removal.force = random_.Below(2) == 0;
+    removal.etag = EtagOfCollection(model, removal.id);
+    return [=](Catalog& catalog) {
+      return "delete " + removal.id + ": " +
+             Text(catalog.DeleteCollection(removal),
+                  [](const CollectionDeleted& deleted) {
+                    return deleted.uid + Digests(deleted.unreferenced);
+                  });
+    };
+  }
+
+  Operation PutShape(Catalog& model) {
+    const std::string collection = CollectionId();
+    const auto record = model.GetCollection(collection);
+    const uint64_t mesh = random_.Below(kMeshes);
+    ShapePut put = SamplePut(
+        record.ok() ? *record : SampleCollection(collection), ShapeId(), mesh);
+    put.record.mesh_stored = random_.Below(4) != 0;
+    put.if_exists = static_cast<IfExists>(random_.Below(3));
+    put.etag = EtagOfShape(model, collection, put.record.id);
+    put.request = Stamp("PutShape", absl::StrCat(put.record.id, mesh));
+    return [=](Catalog& catalog) {
+      return "put " + collection + "/" + put.record.id + ": " +
+             Text(catalog.PutShape(put), Show);
+    };
+  }
+
+  Operation UpdateShape(Catalog& model) {
+    ShapePatch patch;
+    patch.collection = CollectionId();
+    patch.id = ShapeId();
+    if (random_.Below(2) == 0) patch.display_name = "another name";
+    if (random_.Below(2) == 0) patch.source_uri = "file:///elsewhere";
+    if (random_.Below(2) == 0) patch.metadata.emplace({{"key", "value"}});
+    patch.etag = EtagOfShape(model, patch.collection, patch.id);
+    patch.update_time = absl::FromUnixSeconds(
+        1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
+    return [=](Catalog& catalog) {
+      return "update " + patch.collection + "/" + patch.id + ": " +
+             Text(catalog.UpdateShape(patch), Show);
+    };
+  }
+
+  Operation DeleteShape(Catalog& model) {
+    ShapeDelete removal;
+    removal.collection = CollectionId();
+    removal.id = ShapeId();
+    removal.etag = EtagOfShape(model, removal.collection, removal.id);
+    removal.request = Stamp("DeleteShape", removal.id);
+    return [=](Catalog& catalog) {
+      return "delete " + removal.collection + "/" + removal.id + ": " +
+             Text(catalog.DeleteShape(removal),
+                  [](const ShapeDeleted& deleted) {
+                    return SerializeShapeDeleted(deleted) +
+                           Digests(deleted.unreferenced);
+                  });
+    };
+  }
+
+  Operation Read(Catalog& model) {
+    const std::string collection = CollectionId();
+    const std::string id = ShapeId();
+    const auto record = model.GetCollection(collection);
+    const std::string uid = record.ok() ? record->uid : "nobody";
+    const int limit = static_cast<int>(1 + random_.Below(6));
+    const Sha256Digest mesh =
+        ComputeSha256(absl::StrCat("mesh ", random_.Below(kMeshes)));
+    return [=](Catalog& catalog) {
+      std::string text = "read " + collection + "/" + id + ": ";
+      text += Text(catalog.ReadGraph(collection, id, true),
+                   [](const StoredGraph& stored) {
+                     return SerializeShapeRecord(stored.record) + stored.graph +
+                            stored.labels + stored.signature;
+                   });
+      text += Text(catalog.ReadWindows(uid, id),
+                   [](const std::string& windows) { return windows; });
+      text += Text(catalog.ListShapes(collection, id, limit),
+                   [](const std::vector<ShapeRecord>& shapes) {
+                     std::string all;
+                     for (const auto& s : shapes)
+                       all += SerializeShapeRecord(s);
+                     return all;
+                   });
+      text += Text(catalog.IsMeshReferenced(mesh),
+                   [](bool yes) { return std::string(yes ? "yes" : "no"); });
+      return text;
+    };
+  }
+
+  Random random_;
+};
+
+// Everything in a catalog.
+std::string Dump(Catalog& catalog) {
+  std::string text;
+  const auto collections = catalog.ListCollections("", 1000);
+  if (!collections.ok()) return collections.status().ToString();
+  for (const CollectionRecord& collection : *collections) {
+    text += SerializeCollectionRecord(collection);
+    text += Text(catalog.ScanGraphs(collection.uid, "", 1000),
+                 [](const std::vector<ScannedGraph>& graphs) {
+                   std::string all;
+                   for (const ScannedGraph& g : graphs) {
+                     all += SerializeShapeRecord(g.record) + g.graph +
+                            g.signature + g.window_words + g.status.ToString();
+                   }
+                   return all;
+                 });
+    text += Text(catalog.ReadChanges(collection.uid, 0, 100'000),
+                 [](const std::vector<ShapeChange>& changes) {
+                   std::string all;
+                   for (const ShapeChange& c : changes) {
+                     absl::StrAppend(&all, c.generation, c.id,
+                                     static_cast<int>(c.kind));
+                   }
+                   return all;
+                 });
+  }
+  return text;
+}
+
+class CatalogModelTest : public ::testing::Test {
+ protected:
+  void Open() {
+    auto directory = DataDirectory::Open(
+        folder_.path() / "data",
+        {.min_free_bytes = 0, .allow_network_file_system = true});
+    ASSERT_TRUE(directory.ok()) << directory.status();
+    auto catalog = SqliteCatalog::Open(*std::move(directory));
+    ASSERT_TRUE(catalog.ok()) << catalog.status();
+    catalog_ = *std::move(catalog);
+  }
+
+  const TemporaryDirectory folder_;
+  std::unique_ptr<SqliteCatalog> catalog_;
+  MemoryCatalog model_;
+};
+
+TEST_F(CatalogModelTest, AnswersAsItsTwinInMemoryDoes) {
+  const uint64_t seed = NumberOf("ARGMESH_MODEL_SEED", 1);
+  const uint64_t count = NumberOf("ARGMESH_MODEL_OPERATIONS", 1500);
+  std::printf("seed %s, %s operations\n", absl::StrCat(seed).c_str(),
+              absl::StrCat(count).c_str());
+  Operations operations(seed);
+  ASSERT_NO_FATAL_FAILURE(Open());
+  for (uint64_t i = 0; i < count; ++i) {
+    const Operation operation = operations.Next(model_);
+    const std::string expected = operation(model_);
+    const std::string answer = operation(*catalog_);
+    ASSERT_TRUE(answer == expected)
+        << "seed " << seed << ", operation " << i << ", "
+        << expected.substr(0, 200) << " but " << answer.substr(0, 200);
+    const double chance = operations.random().Uniform();
+    if (chance < kRestart) {
+      catalog_.reset();
+      ASSERT_NO_FATAL_FAILURE(Open());
+    }
+    if (chance < kCompare) {
+      ASSERT_TRUE(Dump(*catalog_) == Dump(model_))
+          << "seed " << seed << ", after operation " << i;
+    }
+  }
+  EXPECT_TRUE(Dump(*catalog_) == Dump(model_)) << "seed " << seed;
+}
+
+}  // namespace
+}  // namespace argmesh

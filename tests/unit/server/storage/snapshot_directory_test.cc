@@ -1,0 +1,171 @@
+#include "server/storage/snapshot_directory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "server/engine/error_reason.h"
+#include "tests/support/temporary_directory.h"
+#include "tests/unit/server/storage/stored_samples.h"
+
+namespace argmesh {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class SnapshotDirectoryTest : public ::testing::Test {
+ protected:
+  SnapshotDirectoryTest() : samples_(folder_.path() / "data") {
+    samples_.AddCollection("cups");
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+      samples_.AddShape("cups", "cup-" + std::to_string(seed), seed);
+    }
+  }
+
+  std::filesystem::path BlobOf(const std::string& id) {
+    const auto record = samples_.catalog().GetShape("cups", id);
+    EXPECT_TRUE(record.ok()) << record.status();
+    const std::string digits = ToHex(record->sha256);
+    return samples_.path() / "blobs" / digits.substr(0, 2) / digits;
+  }
+
+  size_t FilesOfSnapshots() const {
+    const std::filesystem::directory_iterator files(samples_.path() /
+                                                    "snapshots");
+    return static_cast<size_t>(std::distance(begin(files), end(files)));
+  }
+
+  const TemporaryDirectory folder_;
+  StoredSamples samples_;
+};
+
+TEST_F(SnapshotDirectoryTest, MakesListsReadsAndRemovesSnapshots) {
+  const auto made = samples_.snapshots().CreateSnapshot("one", {});
+  ASSERT_TRUE(made.ok()) << made.status();
+  EXPECT_EQ(made->id, "one");
+  const auto reader = samples_.snapshots().OpenSnapshot("one");
+  ASSERT_TRUE(reader.ok()) << reader.status();
+  std::string bytes;
+  while (true) {
+    const auto piece = (*reader)->Read(5000);
+    ASSERT_TRUE(piece.ok()) << piece.status();
+    if (piece->empty()) break;
+    bytes += *piece;
+  }
+  EXPECT_EQ(static_cast<int64_t>(bytes.size()), made->size_bytes);
+  EXPECT_EQ(ComputeSha256(bytes), made->sha256);
+
+  ASSERT_TRUE(samples_.snapshots().CreateSnapshot("another", {}).ok());
+  const auto list = samples_.snapshots().ListSnapshots();
+  ASSERT_TRUE(list.ok()) << list.status();
+  ASSERT_EQ(list->size(), 2U);
+  EXPECT_EQ((*list)[0].id, "another");
+  EXPECT_EQ((*list)[1].id, "one");
+  ASSERT_TRUE(samples_.snapshots().DeleteSnapshot("one").ok());
+  EXPECT_EQ(samples_.snapshots().ListSnapshots()->size(), 1U);
+  EXPECT_EQ(FilesOfSnapshots(), 2U);
+}
+
+TEST_F(SnapshotDirectoryTest, SaysWhatIsMissingOrTaken) {
+  ASSERT_TRUE(samples_.snapshots().CreateSnapshot("one", {}).ok());
+  EXPECT_EQ(ReasonOf(samples_.snapshots().CreateSnapshot("one", {}).status()),
+            ErrorReason::kSnapshotExists);
+  EXPECT_EQ(ReasonOf(samples_.snapshots().GetSnapshot("two").status()),
+            ErrorReason::kSnapshotNotFound);
+  EXPECT_EQ(ReasonOf(samples_.snapshots().OpenSnapshot("two").status()),
+            ErrorReason::kSnapshotNotFound);
+  EXPECT_EQ(ReasonOf(samples_.snapshots().DeleteSnapshot("two")),
+            ErrorReason::kSnapshotNotFound);
+}
+
+TEST_F(SnapshotDirectoryTest, PutsNothingDamagedIntoASnapshot) {
+  std::fstream blob(BlobOf("cup-2"), std::ios::in | std::ios::out);
+  blob.seekp(10).put('!');
+  blob.close();
+  EXPECT_EQ(ReasonOf(samples_.snapshots().CreateSnapshot("one", {}).status()),
+            ErrorReason::kStoredDataDamaged);
+  EXPECT_EQ(FilesOfSnapshots(), 0U);
+}
+
+TEST_F(SnapshotDirectoryTest, LeavesNothingBehindWhenItIsStopped) {
+  std::stop_source source;
+  source.request_stop();
+  const StopToken stop(source.get_token(), absl::InfiniteFuture());
+  EXPECT_EQ(samples_.snapshots().CreateSnapshot("one", stop).status().code(),
+            absl::StatusCode::kCancelled);
+  EXPECT_EQ(FilesOfSnapshots(), 0U);
+}
+
+TEST_F(SnapshotDirectoryTest, RemovesAtTheStartWhatACrashLeft) {
+  samples_.Close();
+  std::ofstream(samples_.path() / "snapshots" / "one.tar.part") << "half";
+  samples_.Open();
+  EXPECT_EQ(FilesOfSnapshots(), 0U);
+}
+
+TEST_F(SnapshotDirectoryTest, KeepsMeshesWhileRemovalsAreHeld) {
+  const std::filesystem::path blob = BlobOf("cup-1");
+  const Sha256Digest sha256 =
+      samples_.catalog().GetShape("cups", "cup-1")->sha256;
+  const auto nobody = [](const Sha256Digest&) -> absl::StatusOr<bool> {
+    return false;
+  };
+  {
+    const MeshPin hold = samples_.meshes().HoldRemovals();
+    ASSERT_TRUE(samples_.meshes().RemoveUnreferenced(sha256, nobody).ok());
+    EXPECT_TRUE(std::filesystem::exists(blob));
+  }
+  ASSERT_TRUE(samples_.meshes().RemoveUnreferenced(sha256, nobody).ok());
+  EXPECT_FALSE(std::filesystem::exists(blob));
+}
+
+TEST_F(SnapshotDirectoryTest, FindsNothingInASoundStore) {
+  const auto report = samples_.snapshots().Verify({});
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_EQ(report->findings, 0) << report->first_findings.front();
+  EXPECT_EQ(report->shapes, 3);
+  EXPECT_EQ(report->meshes, 3);
+  EXPECT_EQ(report->checksums, 15) << "five of each shape";
+  EXPECT_GT(report->mesh_bytes, 300);
+}
+
+TEST_F(SnapshotDirectoryTest, FindsEveryKindOfDamage) {
+  std::filesystem::remove(BlobOf("cup-1"));
+  std::filesystem::resize_file(BlobOf("cup-2"), 5);
+  std::fstream blob(BlobOf("cup-3"), std::ios::in | std::ios::out);
+  blob.seekp(10).put('!');
+  blob.close();
+  samples_.Close();
+  {
+    auto connection = SqliteConnection::Open(
+        samples_.path() / "catalog.db", SqliteConnection::Mode::kReadWrite);
+    ASSERT_TRUE(connection.ok()) << connection.status();
+    for (const char* sql :
+         {"UPDATE graph SET crc32c = crc32c + 1 WHERE shape_id = 1",
+          "UPDATE face_label SET labels = x'00' WHERE shape_id = 2",
+          "UPDATE signature SET crc32c = 0 WHERE shape_id = 2",
+          "UPDATE surface_windows SET words = x'01' WHERE shape_id = 3",
+          "UPDATE surface_windows SET windows = x'01' WHERE shape_id = 3",
+          "DELETE FROM graph WHERE shape_id = 3"}) {
+      ASSERT_TRUE((*connection)->Execute(sql).ok()) << sql;
+    }
+  }
+  samples_.Open();
+  const auto report = samples_.snapshots().Verify({});
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_EQ(report->findings, 9);
+  EXPECT_THAT(report->first_findings,
+              ElementsAre(HasSubstr("cup-3: its graph is missing"),
+                          HasSubstr("cup-1: arg"), HasSubstr("cup-2: labels"),
+                          HasSubstr("cup-2: bytes"), HasSubstr("cup-3: words"),
+                          HasSubstr("cup-3: windows"), HasSubstr("mesh"),
+                          HasSubstr("mesh"), HasSubstr("mesh")));
+}
+
+}  // namespace
+}  // namespace argmesh
