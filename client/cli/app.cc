@@ -48,13 +48,14 @@ void AddGlobalOptions(CLI::App& app, GlobalOptions& options) {
       ->type_name("FILE");
   app.add_option("--tls-cert", options.tls.certificate,
                  "Certificate of this client, PEM")
-      ->envname("ARGMESH_TLS_CERT")
+      ->envname("ARGMESH_CLIENT_TLS_CERT")
       ->type_name("FILE");
   app.add_option("--tls-key", options.tls.private_key, "Its private key, PEM")
-      ->envname("ARGMESH_TLS_KEY")
+      ->envname("ARGMESH_CLIENT_TLS_KEY")
       ->type_name("FILE");
   app.add_option("--tls-server-name", options.tls.server_name,
                  "Name that the server's certificate is for, if not the host")
+      ->envname("ARGMESH_TLS_SERVER_NAME")
       ->type_name("NAME");
   app.add_option("--key-file", options.key_file,
                  "File with the API key; else the variable ARGMESH_KEY")
