@@ -94,6 +94,15 @@ CommandOutcome Installation::Run(const std::vector<std::string>& words) {
   return {exit_code, command.Out(), command.Err()};
 }
 
+CommandOutcome Installation::RunServerProgram(
+    const std::vector<std::string>& words) {
+  std::vector<std::string> line = {ARGMESHD_BINARY};
+  line.insert(line.end(), words.begin(), words.end());
+  ChildProcess command(line, folder_, "command-" + std::to_string(++commands_));
+  const int exit_code = command.Wait();
+  return {exit_code, command.Out(), command.Err()};
+}
+
 void Installation::WriteFile(const std::string& relative,
                              const std::string& bytes) const {
   const fs::path path = folder_ / relative;

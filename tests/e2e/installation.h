@@ -45,6 +45,8 @@ class Installation {
 
   // Runs `argmesh` with these words to its end.
   CommandOutcome Run(const std::vector<std::string>& words);
+  // Runs `argmeshd` with these words to its end, beside the server.
+  CommandOutcome RunServerProgram(const std::vector<std::string>& words);
   // Starts it and returns.
   ChildProcess Start(const std::vector<std::string>& words);
 
