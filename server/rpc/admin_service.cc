@@ -104,7 +104,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
     grpc::CallbackServerContext* context,
     const v1::CreateSnapshotRequest* request,
     google::longrunning::Operation* response) {
-  constexpr char kMethod[] = "AdminService.CreateSnapshot";
+  static constexpr char kMethod[] = "AdminService.CreateSnapshot";
   return Serve(context, request, kMethod,
                [this, request, response](StoreAdmin& store) -> absl::Status {
                  const std::string id = request->snapshot_id();
@@ -171,7 +171,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
     grpc::CallbackServerContext* context,
     const v1::VerifyStorageRequest* request,
     google::longrunning::Operation* response) {
-  constexpr char kMethod[] = "AdminService.VerifyStorage";
+  static constexpr char kMethod[] = "AdminService.VerifyStorage";
   return Serve(context, request, kMethod,
                [this, request, response](StoreAdmin& store) -> absl::Status {
                  if (!request->collection().empty()) {

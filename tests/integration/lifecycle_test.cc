@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "google/longrunning/operations.grpc.pb.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -149,32 +148,10 @@ TEST(Lifecycle, SaysWhichMethodsAreNotServed) {
   TestServer server;
   server.Start();
   ExpectNotServed(server.collections(),
-                  &v1::CollectionService::Stub::UpdateCollection);
-  ExpectNotServed(server.collections(),
                   &v1::CollectionService::Stub::ReindexCollection);
-  ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::UpdateShape);
-  ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchGetShapes);
   ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchDeleteShapes);
   ExpectNotServed(server.ingest(), &v1::IngestService::Stub::ImportShapes);
   ExpectNotServed(server.search(), &v1::SearchService::Stub::BatchSearchShapes);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::CreateSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::GetSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::ListSnapshots);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::DeleteSnapshot);
-  ExpectNotServed(server.admin(), &v1::AdminService::Stub::VerifyStorage);
-  using Operations = google::longrunning::Operations;
-  const auto operations = Operations::NewStub(server.channel());
-  ExpectNotServed(*operations, &Operations::Stub::GetOperation);
-  ExpectNotServed(*operations, &Operations::Stub::ListOperations);
-  ExpectNotServed(*operations, &Operations::Stub::DeleteOperation);
-  ExpectNotServed(*operations, &Operations::Stub::CancelOperation);
-  ExpectNotServed(*operations, &Operations::Stub::WaitOperation);
-  {
-    grpc::ClientContext context;
-    const auto reader = server.admin().DownloadSnapshot(
-        &context, v1::DownloadSnapshotRequest());
-    EXPECT_FAILS(reader->Finish(), UNIMPLEMENTED, "METHOD_NOT_SERVED");
-  }
   {
     grpc::ClientContext context;
     const auto stream = server.search().StreamSearchShapes(&context);
