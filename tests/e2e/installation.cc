@@ -83,7 +83,8 @@ std::string Installation::ServerLog() const {
 int Installation::WaitForServer() { return server_->Wait(); }
 
 ChildProcess Installation::Start(const std::vector<std::string>& words) {
-  std::vector<std::string> line = {ARGMESH_BINARY, "--server", address_};
+  std::vector<std::string> line = {ARGMESH_BINARY};
+  if (!address_.empty()) line.insert(line.end(), {"--server", address_});
   line.insert(line.end(), words.begin(), words.end());
   return {line, folder_, "command-" + std::to_string(++commands_)};
 }
