@@ -127,6 +127,8 @@ std::string VariableOf(const std::string& option) {
   return name;
 }
 
+// An empty variable is as good as none: it takes a default of an image back.
+//
 // CLI11 lets its file win over its environment. So what the environment says
 // is put in front of the flags, and the last one of an option counts.
 std::vector<std::string> FromEnvironment(const CLI::App& app,
@@ -135,7 +137,8 @@ std::vector<std::string> FromEnvironment(const CLI::App& app,
   for (const CLI::Option* option : app.get_options()) {
     const std::vector<std::string>& names = option->get_lnames();
     if (names.empty() || !option->get_configurable()) continue;
-    if (const auto value = environment(VariableOf(names.front()))) {
+    const auto value = environment(VariableOf(names.front()));
+    if (value && !value->empty()) {
       arguments.push_back("--" + names.front() + "=" + *value);
     }
   }

@@ -1,8 +1,9 @@
 // The command line of argmeshd.
 //
 // Every option may also be given in a file (--config FILE; TOML or INI) and in
-// the environment: --max-mesh-bytes is ARGMESH_MAX_MESH_BYTES. Flags win over
-// the environment, the environment wins over the file. A key of the file that
+// the environment: --max-mesh-bytes is ARGMESH_MAX_MESH_BYTES; an empty
+// variable counts as none. Flags win over the environment, the environment wins
+// over the file. A key of the file that
 // is no option is an error that names it.
 #ifndef ARGMESH_SERVER_OPTIONS_H_
 #define ARGMESH_SERVER_OPTIONS_H_

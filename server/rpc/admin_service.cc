@@ -109,17 +109,15 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
                [this, request, response](StoreAdmin& store) -> absl::Status {
                  const std::string id = request->snapshot_id();
                  ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
-                 ARGMESH_ASSIGN_OR_RETURN(
-                     *response,
-                     environment_.operations.Start(
-                         kMethod, SnapshotName(id),
-                         [&store, id](const StopToken& stop)
-                             -> absl::StatusOr<google::protobuf::Any> {
-                           ARGMESH_ASSIGN_OR_RETURN(
-                               const SnapshotRecord record,
-                               store.CreateSnapshot(id, stop));
-                           return Packed(ToProto(record));
-                         }));
+                 const auto work = [&store, id](const StopToken& stop)
+                     -> absl::StatusOr<google::protobuf::Any> {
+                   ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
+                                            store.CreateSnapshot(id, stop));
+                   return Packed(ToProto(record));
+                 };
+                 ARGMESH_ASSIGN_OR_RETURN(*response,
+                                          environment_.operations.Start(
+                                              kMethod, SnapshotName(id), work));
                  return absl::OkStatus();
                });
 }
@@ -172,25 +170,23 @@ grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
     const v1::VerifyStorageRequest* request,
     google::longrunning::Operation* response) {
   static constexpr char kMethod[] = "AdminService.VerifyStorage";
-  return Serve(context, request, kMethod,
-               [this, request, response](StoreAdmin& store) -> absl::Status {
-                 if (!request->collection().empty()) {
-                   return FieldInvalid(
-                       "collection",
-                       "not served by this version; leave it empty");
-                 }
-                 ARGMESH_ASSIGN_OR_RETURN(
-                     *response,
-                     environment_.operations.Start(
-                         kMethod, "",
-                         [&store](const StopToken& stop)
-                             -> absl::StatusOr<google::protobuf::Any> {
-                           ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
-                                                    store.Verify(stop));
-                           return Packed(ToProto(report));
-                         }));
-                 return absl::OkStatus();
-               });
+  return Serve(
+      context, request, kMethod,
+      [this, request, response](StoreAdmin& store) -> absl::Status {
+        if (!request->collection().empty()) {
+          return FieldInvalid("collection",
+                              "not served by this version; leave it empty");
+        }
+        const auto work = [&store](const StopToken& stop)
+            -> absl::StatusOr<google::protobuf::Any> {
+          ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
+                                   store.Verify(stop));
+          return Packed(ToProto(report));
+        };
+        ARGMESH_ASSIGN_OR_RETURN(
+            *response, environment_.operations.Start(kMethod, "", work));
+        return absl::OkStatus();
+      });
 }
 
 }  // namespace argmesh

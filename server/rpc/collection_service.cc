@@ -1,7 +1,10 @@
 #include "server/rpc/collection_service.h"
 
+#include <utility>
+
 #include "core/base/status_macros.h"
 #include "server/rpc/convert_collection.h"
+#include "server/rpc/convert_update.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/unary_reactor.h"
 
@@ -68,9 +71,17 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::ListCollections(
 
 grpc::ServerUnaryReactor* CollectionServiceImpl::UpdateCollection(
     grpc::CallbackServerContext* context,
-    const v1::UpdateCollectionRequest* request, v1::Collection*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "CollectionService.UpdateCollection");
+    const v1::UpdateCollectionRequest* request, v1::Collection* response) {
+  return UnaryReactor::Start(
+      environment_, context, request, {"CollectionService.UpdateCollection"},
+      [this, request, response](const UnaryCall&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(CollectionPatch patch, FromProto(*request));
+        ARGMESH_ASSIGN_OR_RETURN(
+            const CollectionRecord record,
+            environment_.engine.UpdateCollection(std::move(patch)));
+        *response = ToProto(record);
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(

@@ -3,13 +3,16 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
 #include "server/rpc/convert_shape.h"
+#include "server/rpc/convert_update.h"
 #include "server/rpc/convert_upload.h"
 #include "server/rpc/download_reactor.h"
 #include "server/rpc/graph_answer.h"
 #include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
 #include "server/rpc/unary_reactor.h"
 #include "server/rpc/upload_reactor.h"
 
@@ -34,6 +37,38 @@ absl::Status List(const Engine& engine, const v1::ListShapesRequest& request,
     *response->add_shapes() = ToProto(record);
   }
   response->set_next_page_token(page.next_page_token);
+  return absl::OkStatus();
+}
+
+absl::Status BatchGet(const Engine& engine,
+                      const v1::BatchGetShapesRequest& request,
+                      const StopToken& stop,
+                      v1::BatchGetShapesResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::string collection,
+                           ParseCollectionName("parent", request.parent()));
+  if (request.names().empty()) return FieldRequired("names");
+  if (request.names_size() > kMaxPageSize) {
+    return FieldInvalid("names",
+                        absl::StrFormat("%d names, the limit is %d",
+                                        request.names_size(), kMaxPageSize));
+  }
+  int64_t bytes = 0;
+  for (const std::string& name : request.names()) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
+                             ParseShapeName("names", name));
+    if (shape.collection != collection) {
+      return FieldInvalid("names", name + " is not of " + request.parent());
+    }
+    ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record, engine.GetShape(shape));
+    v1::Shape& added = *response->add_shapes();
+    added = ToProto(record);
+    bytes += static_cast<int64_t>(added.ByteSizeLong());
+    if (bytes > kMaxAnswerBytes) {
+      return MakeError(ErrorReason::kResponseTooLarge,
+                       "the shapes do not fit in one answer: ask for fewer");
+    }
+  }
   return absl::OkStatus();
 }
 
@@ -88,9 +123,17 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::ListShapes(
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::UpdateShape(
     grpc::CallbackServerContext* context, const v1::UpdateShapeRequest* request,
-    v1::Shape*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "ShapeService.UpdateShape");
+    v1::Shape* response) {
+  return UnaryReactor::Start(
+      environment_, context, request, {"ShapeService.UpdateShape"},
+      [this, request, response](const UnaryCall&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(ShapePatch patch, FromProto(*request));
+        ARGMESH_ASSIGN_OR_RETURN(
+            const ShapeRecord record,
+            environment_.engine.UpdateShape(std::move(patch)));
+        *response = ToProto(record);
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
@@ -113,9 +156,13 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
     grpc::CallbackServerContext* context,
-    const v1::BatchGetShapesRequest* request, v1::BatchGetShapesResponse*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "ShapeService.BatchGetShapes");
+    const v1::BatchGetShapesRequest* request,
+    v1::BatchGetShapesResponse* response) {
+  return UnaryReactor::Start(
+      environment_, context, request, {"ShapeService.BatchGetShapes"},
+      [this, request, response](const UnaryCall& call) {
+        return BatchGet(environment_.engine, *request, call.stop, response);
+      });
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(

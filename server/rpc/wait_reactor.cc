@@ -1,6 +1,7 @@
 #include "server/rpc/wait_reactor.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/rpc/resource_name.h"
 
@@ -41,14 +42,18 @@ void WaitReactor::Begin() {
 }
 
 void WaitReactor::Look(absl::Time now) {
-  const std::lock_guard lock(look_mutex_);
-  if (id_.empty() || answered_) return;
-  absl::StatusOr<google::longrunning::Operation> operation =
-      environment().operations.Get(id_);
-  if (operation.ok() && !operation->done() && now < end_) return;
-  answered_ = true;
-  if (operation.ok()) *response_ = *std::move(operation);
-  FinishOnce(operation.status());
+  absl::Status status;
+  {
+    const std::lock_guard lock(look_mutex_);
+    if (id_.empty() || answered_) return;
+    absl::StatusOr<google::longrunning::Operation> operation =
+        environment().operations.Get(id_);
+    if (operation.ok() && !operation->done() && now < end_) return;
+    answered_ = true;
+    status = operation.status();
+    if (operation.ok()) *response_ = *std::move(operation);
+  }
+  FinishOnce(status);  // without the lock: it may be the end of this object
 }
 
 void WaitReactor::OnTick(absl::Time now) {

@@ -5,6 +5,7 @@
 #ifndef ARGMESH_SERVER_RPC_WAIT_REACTOR_H_
 #define ARGMESH_SERVER_RPC_WAIT_REACTOR_H_
 
+#include <mutex>
 #include <string>
 
 #include "google/longrunning/operations.pb.h"

@@ -52,6 +52,11 @@ absl::Status NotFound(std::string_view id) {
                    {{"snapshot", std::string(id)}});
 }
 
+absl::StatusOr<int64_t> BytesOf(const fs::path& path) {
+  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file, OpenFile(path, O_RDONLY));
+  return FileSize(file, path);
+}
+
 absl::Status AppendFile(const fs::path& path, const char* member,
                         const StopToken& stop, ArchiveWriter& archive) {
   ARGMESH_ASSIGN_OR_RETURN(const PosixFile file, OpenFile(path, O_RDONLY));
@@ -168,13 +173,8 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::CreateSnapshot(
   const MeshPin hold = meshes_.HoldRemovals();
   const fs::path copy = path.string() + ".catalog" + kUnfinished;
   const Discard discard(copy);
-  ARGMESH_ASSIGN_OR_RETURN(
-      const int64_t catalog_bytes, [&]() -> absl::StatusOr<int64_t> {
-        ARGMESH_ASSIGN_OR_RETURN(
-            const PosixFile file,
-            OpenFile(directory_->database_path(), O_RDONLY));
-        return FileSize(file, directory_->database_path());
-      }());
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t catalog_bytes,
+                           BytesOf(directory_->database_path()));
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(catalog_bytes));
   ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<SqliteConnection> catalog,
                            CopyCatalog(copy));
@@ -186,8 +186,7 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::Write(
     const StopToken& stop) const {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> meshes,
                            ReadNamedMeshes(catalog));
-  std::error_code error;
-  int64_t bytes = static_cast<int64_t>(fs::file_size(copy, error));
+  ARGMESH_ASSIGN_OR_RETURN(int64_t bytes, BytesOf(copy));
   for (const NamedMesh& mesh : meshes) bytes += mesh.size_bytes;
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(bytes));
 

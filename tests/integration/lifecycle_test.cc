@@ -148,11 +148,7 @@ TEST(Lifecycle, SaysWhichMethodsAreNotServed) {
   TestServer server;
   server.Start();
   ExpectNotServed(server.collections(),
-                  &v1::CollectionService::Stub::UpdateCollection);
-  ExpectNotServed(server.collections(),
                   &v1::CollectionService::Stub::ReindexCollection);
-  ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::UpdateShape);
-  ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchGetShapes);
   ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchDeleteShapes);
   ExpectNotServed(server.ingest(), &v1::IngestService::Stub::ImportShapes);
   ExpectNotServed(server.search(), &v1::SearchService::Stub::BatchSearchShapes);

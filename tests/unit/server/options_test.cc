@@ -86,6 +86,15 @@ TEST_F(ServerOptionsTest, TakesFlagsFromTheEnvironmentAndTheFile) {
   EXPECT_FALSE(parsed->options.insecure_remote);
 }
 
+TEST_F(ServerOptionsTest, TakesAnEmptyVariableAsNone) {
+  environment_["ARGMESH_METRICS_LISTEN"] = "";
+  environment_["ARGMESH_THREADS"] = "";
+  const auto parsed = Parse({});
+  ASSERT_TRUE(parsed.ok()) << parsed.status();
+  EXPECT_EQ(parsed->options.metrics_listen, "");
+  EXPECT_EQ(parsed->options.threads, 0);
+}
+
 TEST_F(ServerOptionsTest, NamesTheKeyOfTheFileThatIsNoOption) {
   const auto parsed = Parse({WriteFile("threads=1\nthraeds=2\n")});
   ASSERT_FALSE(parsed.ok());
