@@ -47,7 +47,7 @@ TEST_F(UpdateTest, ChangesWhatTheMaskNames) {
   EXPECT_EQ(updated.display_name(), "The torus");
   EXPECT_EQ(updated.source_uri(), "");
   EXPECT_EQ(updated.metadata_size(), 0);
-  EXPECT_EQ(updated.sha256(), shape_.sha256());
+  EXPECT_EQ(updated.mesh().sha256(), shape_.mesh().sha256());
   EXPECT_GT(updated.generation(), shape_.generation());
   EXPECT_NE(updated.etag(), shape_.etag());
 }
