@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
-#include "absl/time/clock.h"
 #include "core/abstraction/voronoi_regions.h"
 #include "core/base/status_macros.h"
+#include "core/base/stopwatch.h"
 #include "core/mesh/mesh_canonical.h"
 
 namespace argmesh {
@@ -18,18 +18,6 @@ constexpr int kMaxUniformCells = 1000;
 // this multiple of the budget are accepted.
 constexpr double kCoarseWelds[] = {1e-3, 1e-2};
 constexpr int kMaxBudgetMultiple = 2;
-
-class Stopwatch {
- public:
-  Stopwatch() : start_(absl::Now()) {}
-  absl::Duration Lap() {
-    const absl::Time now = absl::Now();
-    return now - std::exchange(start_, now);
-  }
-
- private:
-  absl::Time start_;
-};
 
 struct Samples {
   RepairedMesh repaired;

@@ -1,7 +1,6 @@
 #include "core/containment/containment_ranking.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
+#include "core/base/stopwatch.h"
 #include "core/containment/prepared_target.h"
 
 namespace argmesh {
@@ -26,21 +26,6 @@ constexpr double kTieMargin = 0.1;    // of scores
 // Votes inside out, in votes as given, from which on that is tried.
 constexpr double kWorthTurning = 0.9;
 constexpr float kSettled = 0.98F;  // F that more effort cannot raise much
-
-class Stopwatch {
- public:
-  // Seconds since it was made or last read.
-  double Lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ =
-      std::chrono::steady_clock::now();
-};
 
 absl::Status CheckLimit(const char* name, int value) {
   if (value >= 1) return absl::OkStatus();
@@ -113,7 +98,7 @@ class Chain {
     vote_options.limit = std::max(options_.exact_limit, options_.limit);
     vote_options.flipped = flipped_;
     ARGMESH_ASSIGN_OR_RETURN(votes_, index_.Vote(query_, vote_options, stop_));
-    index_seconds_ = watch.Lap();
+    index_time_ = watch.Lap();
     return absl::OkStatus();
   }
 
@@ -122,7 +107,7 @@ class Chain {
     return votes_.shapes.empty() ? 0 : votes_.shapes.front().score;
   }
 
-  double index_seconds() const { return index_seconds_; }
+  absl::Duration index_time() const { return index_time_; }
 
   // After Vote.
   absl::StatusOr<ContainmentRanking> Finish() {
@@ -130,14 +115,14 @@ class Chain {
     ContainmentRanking ranking;
     ranking.considered = index_.size();
     ranking.distinctiveness = votes_.distinctiveness;
-    ranking.index_seconds = index_seconds_;
+    ranking.index_time = index_time_;
     ARGMESH_RETURN_IF_ERROR(VoteOnWindows());
     ranking.loaded = static_cast<int64_t>(candidates_.size());
-    ranking.exact_seconds = watch.Lap();
+    ranking.exact_time = watch.Lap();
     ARGMESH_RETURN_IF_ERROR(Verify());
     ranking.common_share = CommonShare();
     Report(ranking);
-    ranking.verify_seconds = watch.Lap();
+    ranking.verify_time = watch.Lap();
     return ranking;
   }
 
@@ -257,7 +242,7 @@ class Chain {
   VoteResult votes_;
   std::vector<Candidate> candidates_;
   size_t num_verified_ = 0;
-  double index_seconds_ = 0;
+  absl::Duration index_time_;
 };
 
 bool AnyVerified(const ContainmentRanking& ranking) {
@@ -281,14 +266,14 @@ absl::StatusOr<ContainmentRanking> RankContainment(
   Chain turned(query, index, load, options, parallel_for, stop, true);
   ARGMESH_RETURN_IF_ERROR(turned.Vote());
   if (turned.MostVotes() < kWorthTurning * most_votes) {
-    ranking.index_seconds += turned.index_seconds();
+    ranking.index_time += turned.index_time();
     return ranking;
   }
   ARGMESH_ASSIGN_OR_RETURN(ContainmentRanking flipped, turned.Finish());
   if (AnyVerified(flipped)) std::swap(ranking, flipped);
-  ranking.index_seconds += flipped.index_seconds;
-  ranking.exact_seconds += flipped.exact_seconds;
-  ranking.verify_seconds += flipped.verify_seconds;
+  ranking.index_time += flipped.index_time;
+  ranking.exact_time += flipped.exact_time;
+  ranking.verify_time += flipped.verify_time;
   return ranking;
 }
 

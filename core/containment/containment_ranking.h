@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "core/base/stop_token.h"
 #include "core/containment/containment_match.h"
 #include "core/containment/window_index.h"
@@ -54,9 +55,9 @@ struct ContainmentRanking {
   double common_share = 0;     // verified shapes with F > 0.9, 0 .. 1
   int64_t considered = 0;      // shapes in the index
   int64_t loaded = 0;
-  double index_seconds = 0;
-  double exact_seconds = 0;
-  double verify_seconds = 0;
+  absl::Duration index_time;
+  absl::Duration exact_time;
+  absl::Duration verify_time;
 };
 
 // The windows of a slot; called from any thread, for at most `exact_limit`

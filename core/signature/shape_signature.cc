@@ -6,8 +6,8 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_format.h"
-#include "absl/time/clock.h"
 #include "core/base/status_macros.h"
+#include "core/base/stopwatch.h"
 #include "core/signature/chirality.h"
 #include "core/signature/codebook.h"
 #include "core/signature/diagonal_mixture.h"
@@ -52,23 +52,23 @@ absl::StatusOr<ShapeSignature> ComputeShapeSignature(
         "max_boundary_share %g is not in 0 .. 1", options.max_boundary_share));
   }
   ARGMESH_ASSIGN_OR_RETURN(const Codebook* codebook, DefaultCodebook());
-  const absl::Time start = absl::Now();
+  Stopwatch stopwatch;
+  SignatureTimes taken;
   ARGMESH_ASSIGN_OR_RETURN(const SignatureSurface surface,
                            PrepareSurface(repaired, options, stop));
   ShapeSignature signature;
   signature.smoothed = surface.smoothed;
   signature.chirality = MeasureChirality(surface.mesh);
-  const absl::Time prepared = absl::Now();
+  taken.surface = stopwatch.Lap();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows fields,
                            MeasurePointFields(surface, stop));
   signature.point = RoundToHalf(EncodeFields(*codebook, fields));
-  const absl::Time measured = absl::Now();
+  taken.points = stopwatch.Lap();
   ARGMESH_ASSIGN_OR_RETURN(const PointRows patches,
                            DescribeViews(surface, stop));
   signature.view = RoundToHalf(EncodePatches(*codebook, patches));
-  if (times != nullptr) {
-    *times = {prepared - start, measured - prepared, absl::Now() - measured};
-  }
+  taken.views = stopwatch.Lap();
+  if (times != nullptr) *times = taken;
   return signature;
 }
 

@@ -88,6 +88,12 @@ double ContainmentScore(const ContainmentMatch& match) {
   return std::clamp(match.score / kMaxScore, 0.0, 1.0);
 }
 
+std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match) {
+  const double surface = (match.score - match.votes) / 2;
+  return {{"windows", match.votes, 1 / kMaxScore},
+          {"surface^8", surface, 2 / kMaxScore}};
+}
+
 absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
     const GallerySnapshot& gallery, const ContainmentQuery& query,
     const StopToken& stop) const {
@@ -121,9 +127,9 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
   answer.considered = ranking.considered;
   answer.matched = ranking.loaded;
   answer.damaged = loader.damaged();
-  answer.candidate_time = absl::Seconds(ranking.index_seconds);
-  answer.match_time = absl::Seconds(ranking.exact_seconds);
-  answer.verification_time = absl::Seconds(ranking.verify_seconds);
+  answer.candidate_time = ranking.index_time;
+  answer.match_time = ranking.exact_time;
+  answer.verification_time = ranking.verify_time;
   return answer;
 }
 

@@ -19,6 +19,7 @@
 #include "server/engine/catalog.h"
 #include "server/engine/compute_pool.h"
 #include "server/engine/gallery_snapshot.h"
+#include "server/engine/search_requests.h"
 
 namespace argmesh {
 
@@ -69,6 +70,8 @@ class ContainmentRanker {
 
 // S + 2 F^8 as a share of its most, 0 .. 1.
 double ContainmentScore(const ContainmentMatch& match);
+// The summands of that.
+std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match);
 
 }  // namespace argmesh
 

@@ -1,13 +1,12 @@
 #include "server/engine/shape_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
-#include "absl/time/clock.h"
 #include "core/base/status_macros.h"
+#include "core/base/stopwatch.h"
 #include "core/matching/fused_score.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/search_reranking.h"
@@ -23,13 +22,12 @@ class StageClock {
   explicit StageClock(std::vector<StageTime>& stages) : stages_(stages) {}
 
   void Lap(std::string stage) {
-    const absl::Time now = absl::Now();
-    stages_.push_back({std::move(stage), now - std::exchange(last_, now)});
+    stages_.push_back({std::move(stage), stopwatch_.Lap()});
   }
 
  private:
   std::vector<StageTime>& stages_;
-  absl::Time last_ = absl::Now();
+  Stopwatch stopwatch_;
 };
 
 std::string ExcludedId(const SearchQuery& query) {
@@ -47,11 +45,6 @@ QueryNeeds NeedsOf(MatchMode mode, RankingMethod ranking) {
 std::vector<ScoreTerm> FusedTerms(double graph, double signature) {
   return {{"graph", graph, kGraphWeight},
           {"signature", signature, kSignatureWeight}};
-}
-
-std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match) {
-  return {{"windows", match.votes, 1.0 / 3},
-          {"surface^8", std::pow(match.fine_cover, 8), 2.0 / 3}};
 }
 
 // Of shapes that are not alike handedness says nothing.

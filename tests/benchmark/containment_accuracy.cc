@@ -190,9 +190,9 @@ Row Judge(const Gallery& gallery, const Query& query,
   row[1] = relevant > 0 ? found / relevant : 0;
   row[8] = ranking.generic;
   row[9] = ranking.distinctiveness;
-  row[11] = ranking.index_seconds;
-  row[12] = ranking.exact_seconds;
-  row[13] = ranking.verify_seconds;
+  row[11] = absl::ToDoubleSeconds(ranking.index_time);
+  row[12] = absl::ToDoubleSeconds(ranking.exact_time);
+  row[13] = absl::ToDoubleSeconds(ranking.verify_time);
   return row;
 }
 

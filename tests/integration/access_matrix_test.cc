@@ -13,16 +13,15 @@
 #include <utility>
 #include <vector>
 
-#include "google/longrunning/operations.pb.h"
 #include "server/rpc/access_rules.h"
 #include "tests/integration/generic_call.h"
 #include "tests/integration/server_fixture.h"
+#include "tests/support/rpc_methods.h"
 
 namespace argmesh {
 namespace {
 
 using google::protobuf::FieldDescriptor;
-using google::protobuf::FileDescriptor;
 using google::protobuf::Message;
 using google::protobuf::MessageFactory;
 using google::protobuf::MethodDescriptor;
@@ -32,24 +31,6 @@ constexpr char kOther[] = "other";
 
 // One field of a request, from the outside in, that names a resource.
 using FieldPath = std::vector<const FieldDescriptor*>;
-
-std::vector<const MethodDescriptor*> AllMethods() {
-  std::vector<const MethodDescriptor*> methods;
-  for (const FileDescriptor* file :
-       {v1::GetServerInfoRequest::descriptor()->file(),
-        v1::GetCollectionRequest::descriptor()->file(),
-        v1::IngestHello::descriptor()->file(),
-        v1::SearchShapesRequest::descriptor()->file(),
-        v1::GetShapeRequest::descriptor()->file(),
-        google::longrunning::Operation::descriptor()->file()}) {
-    for (int s = 0; s < file->service_count(); ++s) {
-      for (int m = 0; m < file->service(s)->method_count(); ++m) {
-        methods.push_back(file->service(s)->method(m));
-      }
-    }
-  }
-  return methods;
-}
 
 bool NamesAResource(const FieldDescriptor& field) {
   static const std::set<std::string> kNames = {
