@@ -77,6 +77,15 @@ ContainmentMatch WholeMatch() {
   return match;
 }
 
+bool Holds(const GallerySnapshot& gallery, const std::string& id) {
+  for (const auto& block : gallery.blocks) {
+    for (const GalleryEntryPtr& entry : *block) {
+      if (entry != nullptr && entry->record.id == id) return true;
+    }
+  }
+  return false;
+}
+
 bool RanksBefore(const ContainingShape& a, const ContainingShape& b) {
   if (a.score != b.score) return a.score > b.score;
   return a.entry->record.id < b.entry->record.id;
@@ -125,6 +134,7 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
   }
   answer.generic = ranking.generic;
   answer.considered = ranking.considered;
+  if (Holds(gallery, query.exclude_id)) --answer.considered;
   answer.matched = ranking.loaded;
   answer.damaged = loader.damaged();
   answer.candidate_time = ranking.index_time;

@@ -116,6 +116,20 @@ TEST_F(SearchServiceTest, FindsThePlaceOfAMovedCopy) {
   EXPECT_EQ(transform[15], 1);
 }
 
+TEST_F(SearchServiceTest, CountsNoShapeThatIsLeftOut) {
+  for (const auto mode : {v1::SEARCH_MODE_GLOBAL, v1::SEARCH_MODE_PARTIAL}) {
+    v1::SearchShapesRequest request = ByShape("torus");
+    request.set_mode(mode);
+    request.set_exclude_query(true);
+    v1::SearchShapesResponse response;
+    ASSERT_CALL_OK(Search(request, &response));
+    EXPECT_EQ(response.matches_size(), 2);
+    EXPECT_EQ(response.stats().shapes_considered(), 2);
+    EXPECT_EQ(response.stats().candidates_ranked(), 2);
+    EXPECT_TRUE(response.stats().exhaustive());
+  }
+}
+
 TEST_F(SearchServiceTest, TakesComponentsOfAStoredShapeAsTheQuery) {
   for (const auto mode : {v1::SEARCH_MODE_GLOBAL, v1::SEARCH_MODE_PARTIAL}) {
     v1::SearchShapesRequest request = ByShape("dumbbell");
