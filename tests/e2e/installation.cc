@@ -1,7 +1,6 @@
 #include "tests/e2e/installation.h"
 
 #include <signal.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <fstream>
@@ -27,31 +26,19 @@ nlohmann::ordered_json CommandOutcome::Json() const {
   return nlohmann::ordered_json::parse(out, nullptr, false);
 }
 
-Installation::Installation() {
-  std::string pattern =
-      (fs::temp_directory_path() / "argmesh-e2e-XXXXXX").string();
-  folder_ = mkdtemp(pattern.data());
-}
-
-Installation::~Installation() {
-  server_.reset();
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 bool Installation::StartServer(const std::vector<std::string>& more) {
   server_.reset();
-  const fs::path port_file = folder_ / "address";
+  const fs::path port_file = folder() / "address";
   fs::remove(port_file);
   std::vector<std::string> words = {ARGMESHD_BINARY,
                                     "--data",
-                                    (folder_ / "store").string(),
+                                    (folder() / "store").string(),
                                     "--listen",
                                     address_.empty() ? "127.0.0.1:0" : address_,
                                     "--port-file",
                                     port_file.string()};
   words.insert(words.end(), more.begin(), more.end());
-  server_.emplace(words, folder_, "server");
+  server_.emplace(words, folder(), "server");
   const auto end = std::chrono::steady_clock::now() + kStartTimeout;
   while (std::chrono::steady_clock::now() < end && server_->Running()) {
     std::string text = ReadAll(port_file);
@@ -86,7 +73,7 @@ ChildProcess Installation::Start(const std::vector<std::string>& words) {
   std::vector<std::string> line = {ARGMESH_BINARY};
   if (!address_.empty()) line.insert(line.end(), {"--server", address_});
   line.insert(line.end(), words.begin(), words.end());
-  return {line, folder_, "command-" + std::to_string(++commands_)};
+  return {line, folder(), "command-" + std::to_string(++commands_)};
 }
 
 CommandOutcome Installation::Run(const std::vector<std::string>& words) {
@@ -99,20 +86,21 @@ CommandOutcome Installation::RunServerProgram(
     const std::vector<std::string>& words) {
   std::vector<std::string> line = {ARGMESHD_BINARY};
   line.insert(line.end(), words.begin(), words.end());
-  ChildProcess command(line, folder_, "command-" + std::to_string(++commands_));
+  ChildProcess command(line, folder(),
+                       "command-" + std::to_string(++commands_));
   const int exit_code = command.Wait();
   return {exit_code, command.Out(), command.Err()};
 }
 
 void Installation::WriteFile(const std::string& relative,
                              const std::string& bytes) const {
-  const fs::path path = folder_ / relative;
+  const fs::path path = folder() / relative;
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
 std::string Installation::ReadFile(const std::string& relative) const {
-  return ReadAll(folder_ / relative);
+  return ReadAll(folder() / relative);
 }
 
 }  // namespace argmesh

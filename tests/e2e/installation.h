@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/e2e/child_process.h"
+#include "tests/support/temporary_directory.h"
 
 namespace argmesh {
 
@@ -24,10 +25,7 @@ struct CommandOutcome {
 
 class Installation {
  public:
-  Installation();   // an empty folder, no server yet
-  ~Installation();  // kills the server, removes the folder
-
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   const std::string& address() const { return address_; }
 
   // Starts the server and waits until it serves; at the address of before when
@@ -54,7 +52,7 @@ class Installation {
   std::string ReadFile(const std::string& relative) const;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryDirectory folder_;
   std::string address_;
   std::optional<ChildProcess> server_;
   int commands_ = 0;

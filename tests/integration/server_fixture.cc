@@ -1,7 +1,6 @@
 #include "tests/integration/server_fixture.h"
 
 #include <google/protobuf/any.pb.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <numbers>
@@ -22,13 +21,6 @@ namespace {
 
 constexpr int kVertexBudget = 300;
 
-std::filesystem::path MakeFolder() {
-  std::string path =
-      (std::filesystem::temp_directory_path() / "argmesh-rpc-XXXXXX").string();
-  if (mkdtemp(path.data()) == nullptr) std::abort();
-  return path;
-}
-
 std::string OffOf(const TriangleMesh& mesh) {
   std::string text =
       absl::StrCat("OFF\n", mesh.V.rows(), " ", mesh.F.rows(), " 0\n");
@@ -46,7 +38,7 @@ std::string OffOf(const TriangleMesh& mesh) {
 }  // namespace
 
 TestServer::TestServer(TestServerOptions options)
-    : options_(std::move(options)), folder_(MakeFolder()) {
+    : options_(std::move(options)) {
   auto telemetry = Telemetry::Open(options_.telemetry, log_text_);
   EXPECT_TRUE(telemetry.ok()) << telemetry.status();
   telemetry_ = *std::move(telemetry);
@@ -54,13 +46,10 @@ TestServer::TestServer(TestServerOptions options)
   options_.rpc.version = "test";
 }
 
-TestServer::~TestServer() {
-  Stop(absl::ZeroDuration());
-  std::filesystem::remove_all(folder_);
-}
+TestServer::~TestServer() { Stop(absl::ZeroDuration()); }
 
 void TestServer::OpenEngine() {
-  auto directory = DataDirectory::Open(folder_, options_.directory);
+  auto directory = DataDirectory::Open(folder(), options_.directory);
   ASSERT_TRUE(directory.ok()) << directory.status();
   auto meshes = DirectoryMeshStore::Open(*directory);
   ASSERT_TRUE(meshes.ok()) << meshes.status();

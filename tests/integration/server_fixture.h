@@ -27,6 +27,7 @@
 #include "server/storage/data_directory.h"
 #include "server/storage/snapshot_directory.h"
 #include "server/telemetry/telemetry.h"
+#include "tests/support/temporary_directory.h"
 
 namespace argmesh {
 
@@ -51,7 +52,7 @@ class TestServer {
   RpcServer& rpc() { return *rpc_; }
   Engine& engine() { return *engine_; }
   Telemetry& telemetry() { return *telemetry_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   std::string log() const { return log_text_.str(); }
   std::shared_ptr<grpc::Channel> channel() { return channel_; }
 
@@ -72,7 +73,7 @@ class TestServer {
   void OpenEngine();
 
   TestServerOptions options_;
-  std::filesystem::path folder_;
+  TemporaryDirectory folder_;
   std::ostringstream log_text_;
   std::unique_ptr<Telemetry> telemetry_;
   std::unique_ptr<Engine> engine_;

@@ -1,4 +1,4 @@
-// A folder of a test's own, removed with everything in it.
+// A folder of a test's own, empty at first, removed with everything in it.
 #ifndef ARGMESH_TESTS_SUPPORT_TEMPORARY_DIRECTORY_H_
 #define ARGMESH_TESTS_SUPPORT_TEMPORARY_DIRECTORY_H_
 
