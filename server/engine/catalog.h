@@ -35,7 +35,8 @@ class Catalog {
   // kCollectionExists, kRequestIdReused. `record` comes with id, uid, times.
   virtual absl::StatusOr<CollectionRecord> InsertCollection(
       const CollectionRecord& record, const RequestStamp& request) = 0;
-  // kCollectionNotFound, kEtagMismatch.
+  // kCollectionNotFound, kEtagMismatch; kFieldInvalid when a stored shape has a
+  // value that is not of its newly declared type.
   virtual absl::StatusOr<CollectionRecord> UpdateCollection(
       const CollectionPatch& patch) = 0;
   // kCollectionNotFound, kCollectionNotEmpty, kEtagMismatch.
@@ -50,9 +51,10 @@ class Catalog {
 
   // --- shapes ------------------------------------------------------------
   // kCollectionNotFound (also when the id now belongs to another uid),
-  // kShapeExists, kEtagMismatch, kRequestIdReused.
+  // kShapeExists, kEtagMismatch, kRequestIdReused, kFieldInvalid
+  // (CheckDeclaredValues).
   virtual absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) = 0;
-  // kCollectionNotFound, kShapeNotFound, kEtagMismatch.
+  // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kFieldInvalid.
   virtual absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) = 0;
   // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kRequestIdReused.
   virtual absl::StatusOr<ShapeDeleted> DeleteShape(

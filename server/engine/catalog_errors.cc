@@ -68,4 +68,16 @@ absl::Status CheckEtag(std::string_view asked, std::string_view stored) {
                    {{"etag", std::string(stored)}});
 }
 
+absl::Status CheckStoredValues(
+    const std::vector<MetadataKey>& keys, std::string_view shape,
+    const std::map<std::string, std::string>& metadata) {
+  const absl::Status typed = CheckDeclaredValues(keys, metadata);
+  if (typed.ok()) return typed;
+  const std::string name(shape);
+  return MakeError(
+      ErrorReason::kFieldInvalid,
+      "metadata_keys: of shape " + name + ", " + std::string(typed.message()),
+      {{"field", "metadata_keys"}, {"shape", name}});
+}
+
 }  // namespace argmesh

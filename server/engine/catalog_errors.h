@@ -2,9 +2,13 @@
 #ifndef ARGMESH_SERVER_ENGINE_CATALOG_ERRORS_H_
 #define ARGMESH_SERVER_ENGINE_CATALOG_ERRORS_H_
 
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "server/engine/metadata_key.h"
 
 namespace argmesh {
 
@@ -18,6 +22,12 @@ absl::Status RequestIdReusedError(std::string_view request_id);
 absl::Status CatalogClosedError();
 // OK when `asked` is empty or the stored one.
 absl::Status CheckEtag(std::string_view asked, std::string_view stored);
+
+// FIELD_INVALID `metadata_keys`: the stored shape has a value that is not of
+// the type that is to be declared.
+absl::Status CheckStoredValues(
+    const std::vector<MetadataKey>& keys, std::string_view shape,
+    const std::map<std::string, std::string>& metadata);
 
 }  // namespace argmesh
 

@@ -29,7 +29,8 @@ struct RequestStamp {
 struct CollectionPatch {
   std::string id;
   std::optional<std::string> display_name;
-  std::string etag;  // empty: any
+  std::optional<std::vector<MetadataKey>> metadata_keys;  // all of them
+  std::string etag;                                       // empty: any
   absl::Time update_time;
 };
 

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/time/time.h"
 #include "core/abstraction/decomposition.h"
+#include "server/engine/metadata_key.h"
 
 namespace argmesh {
 
@@ -28,6 +30,7 @@ struct CollectionRecord {
   std::string uid;  // UUID; another one when the id is deleted and made again
   std::string display_name;
   CollectionSettings settings;
+  std::vector<MetadataKey> metadata_keys;  // the declared ones
   uint32_t graph_version = 0;  // kShapeGraphVersion when it was created
   int64_t generation = 0;      // +1 for every shape written or deleted
   int64_t shape_count = 0;     // in the same read as the generation

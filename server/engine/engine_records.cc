@@ -49,13 +49,15 @@ absl::StatusOr<CollectionRecord> Engine::CreateCollection(
       const RequestStamp request,
       StampRequest(spec.request, "CreateCollection",
                    {spec.id, spec.display_name,
-                    SerializeCollectionSettings(spec.settings)},
+                    SerializeCollectionSettings(spec.settings),
+                    SerializeMetadataKeys(spec.metadata_keys)},
                    absl::Now() + parts_->options.request_memory));
   CollectionRecord record;
   record.id = spec.id;
   record.uid = MakeUid();
   record.display_name = spec.display_name;
   record.settings = spec.settings;
+  record.metadata_keys = spec.metadata_keys;
   record.graph_version = kShapeGraphVersion;
   record.create_time = NowInMicros();
   record.update_time = record.create_time;
@@ -99,6 +101,9 @@ absl::StatusOr<CollectionRecord> Engine::UpdateCollection(
   if (patch.display_name) {
     ARGMESH_RETURN_IF_ERROR(
         CheckText("display_name", *patch.display_name, kMaxDisplayNameBytes));
+  }
+  if (patch.metadata_keys) {
+    ARGMESH_RETURN_IF_ERROR(CheckMetadataKeys(*patch.metadata_keys));
   }
   patch.update_time = NowInMicros();
   return parts_->catalog->UpdateCollection(patch);

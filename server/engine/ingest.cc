@@ -216,6 +216,8 @@ absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
   ARGMESH_ASSIGN_OR_RETURN(std::optional<AddedShape> stored,
                            FindStored(shape, source.sha256, request));
   if (stored) return *std::move(stored);
+  ARGMESH_RETURN_IF_ERROR(
+      CheckDeclaredValues(collection.metadata_keys, shape.metadata));
   if (collection.graph_version != kShapeGraphVersion) {
     return MakeError(
         ErrorReason::kGraphVersionMismatch,

@@ -108,6 +108,8 @@ class FieldReader {
     items.resize(Count(item_bytes));
   }
 
+  bool at_end() const { return reader_.remaining() == 0; }
+
   absl::Status Finish() {
     if (status_.ok()) status_ = reader_.ExpectEnd();
     return status_;
@@ -149,6 +151,16 @@ void VisitSettings(A& a, T& settings) {
   a.Field(settings.vertex_budget);
   a.Field(settings.uniform_cells);
   a.Field(settings.store_meshes);
+}
+
+template <typename A, typename T>
+void VisitKeys(A& a, T& keys) {
+  constexpr size_t kKeyBytes = 12;
+  a.Resize(keys, kKeyBytes);
+  for (auto& key : keys) {
+    a.Field(key.key);
+    a.Field(key.type);
+  }
 }
 
 template <typename A, typename T>
@@ -238,6 +250,21 @@ absl::StatusOr<CollectionSettings> ParseCollectionSettings(
   return settings;
 }
 
+std::string SerializeMetadataKeys(const std::vector<MetadataKey>& keys) {
+  FieldWriter writer;
+  VisitKeys(writer, keys);
+  return writer.TakeBytes();
+}
+
+absl::StatusOr<std::vector<MetadataKey>> ParseMetadataKeys(
+    std::string_view bytes) {
+  FieldReader reader(bytes, "metadata keys");
+  std::vector<MetadataKey> keys;
+  VisitKeys(reader, keys);
+  ARGMESH_RETURN_IF_ERROR(reader.Finish());
+  return keys;
+}
+
 std::string SerializeShapeDetails(const ShapeRecord& record) {
   FieldWriter writer;
   VisitReport(writer, record.report);
@@ -269,6 +296,7 @@ absl::StatusOr<ShapeRecord> ParseShapeRecord(std::string_view bytes) {
 std::string SerializeCollectionRecord(const CollectionRecord& record) {
   FieldWriter writer;
   VisitCollection(writer, record);
+  VisitKeys(writer, record.metadata_keys);
   return writer.TakeBytes();
 }
 
@@ -276,6 +304,8 @@ absl::StatusOr<CollectionRecord> ParseCollectionRecord(std::string_view bytes) {
   FieldReader reader(bytes, "collection record");
   CollectionRecord record;
   VisitCollection(reader, record);
+  // Records from before there were any end here.
+  if (!reader.at_end()) VisitKeys(reader, record.metadata_keys);
   ARGMESH_RETURN_IF_ERROR(reader.Finish());
   return record;
 }

@@ -9,6 +9,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "server/engine/catalog_requests.h"
@@ -19,6 +20,10 @@ namespace argmesh {
 
 std::string SerializeCollectionSettings(const CollectionSettings& settings);
 absl::StatusOr<CollectionSettings> ParseCollectionSettings(
+    std::string_view bytes);
+
+std::string SerializeMetadataKeys(const std::vector<MetadataKey>& keys);
+absl::StatusOr<std::vector<MetadataKey>> ParseMetadataKeys(
     std::string_view bytes);
 
 // MeshReport and GraphSummary of a shape: `record`'s other fields are left.

@@ -75,6 +75,7 @@ absl::Status CheckNewCollection(const NewCollection& spec) {
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", spec.id));
   ARGMESH_RETURN_IF_ERROR(
       CheckText("display_name", spec.display_name, kMaxDisplayNameBytes));
+  ARGMESH_RETURN_IF_ERROR(CheckMetadataKeys(spec.metadata_keys));
   return CheckSettings(spec.settings);
 }
 

@@ -28,6 +28,7 @@ struct NewCollection {
   std::string id;
   std::string display_name;
   CollectionSettings settings;
+  std::vector<MetadataKey> metadata_keys;
   RequestKey request;
 };
 

@@ -24,6 +24,10 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::CreateCollection(
         ARGMESH_ASSIGN_OR_RETURN(
             spec.settings,
             FromProto("collection.settings", request->collection().settings()));
+        ARGMESH_ASSIGN_OR_RETURN(
+            spec.metadata_keys,
+            FromProto("collection.metadata_keys",
+                      request->collection().metadata_keys()));
         spec.request = {call.caller.principal, request->request_id()};
         ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord record,
                                  environment_.engine.CreateCollection(spec));

@@ -47,6 +47,22 @@ absl::StatusOr<CollectionSettings> FromProto(
   return out;
 }
 
+absl::StatusOr<std::vector<MetadataKey>> FromProto(
+    std::string_view field,
+    const google::protobuf::RepeatedPtrField<v1::MetadataKey>& keys) {
+  std::vector<MetadataKey> out;
+  for (const v1::MetadataKey& key : keys) {
+    if (!v1::MetadataType_IsValid(key.type()) ||
+        key.type() == v1::METADATA_TYPE_UNSPECIFIED) {
+      return FieldInvalid(
+          field, absl::StrFormat("%d is no type of metadata", key.type()));
+    }
+    // The numbers are the same.
+    out.push_back({key.key(), static_cast<MetadataType>(key.type())});
+  }
+  return out;
+}
+
 v1::CollectionSettings ToProto(const CollectionSettings& settings) {
   v1::CollectionSettings out;
   out.set_decomposition(ToProto(settings.decomposition));
@@ -68,6 +84,11 @@ v1::Collection ToProto(const CollectionRecord& record) {
   *out.mutable_update_time() = ToTimestamp(record.update_time);
   out.set_etag(CollectionEtag(record));
   out.set_graph_version(record.graph_version);
+  for (const MetadataKey& key : record.metadata_keys) {
+    v1::MetadataKey& added = *out.add_metadata_keys();
+    added.set_key(key.key);
+    added.set_type(static_cast<v1::MetadataType>(key.type));
+  }
   return out;
 }
 

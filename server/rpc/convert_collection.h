@@ -3,6 +3,7 @@
 #define ARGMESH_SERVER_RPC_CONVERT_COLLECTION_H_
 
 #include <string_view>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "argmesh/v1/collection.pb.h"
@@ -13,6 +14,11 @@ namespace argmesh {
 // Fills defaults in. FIELD_INVALID with a field below `field`.
 absl::StatusOr<CollectionSettings> FromProto(
     std::string_view field, const v1::CollectionSettings& settings);
+
+// FIELD_INVALID for a type that is none.
+absl::StatusOr<std::vector<MetadataKey>> FromProto(
+    std::string_view field,
+    const google::protobuf::RepeatedPtrField<v1::MetadataKey>& keys);
 
 v1::CollectionSettings ToProto(const CollectionSettings& settings);
 v1::Collection ToProto(const CollectionRecord& record);

@@ -7,6 +7,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "core/base/status_macros.h"
+#include "server/rpc/convert_collection.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
 
@@ -65,9 +66,15 @@ absl::StatusOr<CollectionPatch> FromProto(
   ARGMESH_ASSIGN_OR_RETURN(
       const std::vector<std::string> fields,
       FieldsOf(request.update_mask(),
-               {{"display_name", !collection.display_name().empty()}}));
+               {{"display_name", !collection.display_name().empty()},
+                {"metadata_keys", !collection.metadata_keys().empty()}}));
   if (Has(fields, "display_name")) {
     patch.display_name = collection.display_name();
+  }
+  if (Has(fields, "metadata_keys")) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        patch.metadata_keys,
+        FromProto("collection.metadata_keys", collection.metadata_keys()));
   }
   patch.etag = collection.etag();
   return patch;

@@ -17,7 +17,7 @@
 
 namespace argmesh {
 
-// May change: display_name.
+// May change: display_name, metadata_keys (as a whole).
 absl::StatusOr<CollectionPatch> FromProto(
     const v1::UpdateCollectionRequest& request);
 

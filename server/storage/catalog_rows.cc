@@ -11,24 +11,20 @@
 namespace argmesh {
 namespace {
 
-absl::StatusOr<std::map<std::string, std::string>> ParseMetadata(
-    const std::string& text) {
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return absl::DataLossError("metadata is no object");
-  std::map<std::string, std::string> metadata;
-  for (const auto& [key, value] : json.items()) {
-    if (!value.is_string()) {
-      return absl::DataLossError("a metadata value is no text");
-    }
-    metadata[key] = value.get<std::string>();
-  }
-  return metadata;
-}
-
 absl::Status ReadDetails(const SqliteStatement& row, ShapeRecord& record) {
   ARGMESH_ASSIGN_OR_RETURN(record.sha256, row.Digest(6));
   ARGMESH_ASSIGN_OR_RETURN(record.metadata, ParseMetadata(row.Text(12)));
   return ParseShapeDetails(row.Blob(13), record);
+}
+
+absl::Status ReadDeclarations(const SqliteStatement& row,
+                              CollectionRecord& record) {
+  ARGMESH_ASSIGN_OR_RETURN(record.settings,
+                           ParseCollectionSettings(row.Blob(4)));
+  const std::string keys = row.Blob(11);
+  if (keys.empty()) return absl::OkStatus();  // from before there were any
+  ARGMESH_ASSIGN_OR_RETURN(record.metadata_keys, ParseMetadataKeys(keys));
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -51,12 +47,9 @@ absl::StatusOr<CollectionRow> ReadCollectionRow(const SqliteStatement& row) {
   record.id = row.Text(1);
   record.uid = row.Text(2);
   record.display_name = row.Text(3);
-  absl::StatusOr<CollectionSettings> settings =
-      ParseCollectionSettings(row.Blob(4));
-  if (!settings.ok()) {
-    return DamagedRow(record.id, "", std::string(settings.status().message()));
+  if (const absl::Status status = ReadDeclarations(row, record); !status.ok()) {
+    return DamagedRow(record.id, "", std::string(status.message()));
   }
-  record.settings = *settings;
   record.graph_version = static_cast<uint32_t>(row.Int(5));
   record.generation = row.Int(6);
   record.shape_count = row.Int(7);
@@ -100,6 +93,20 @@ absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
   ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
   if (!row) return CollectionNotFoundError(id);
   return ReadCollectionRow(statement);
+}
+
+absl::StatusOr<std::map<std::string, std::string>> ParseMetadata(
+    const std::string& text) {
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return absl::DataLossError("metadata is no object");
+  std::map<std::string, std::string> metadata;
+  for (const auto& [key, value] : json.items()) {
+    if (!value.is_string()) {
+      return absl::DataLossError("a metadata value is no text");
+    }
+    metadata[key] = value.get<std::string>();
+  }
+  return metadata;
 }
 
 std::string SerializeMetadata(

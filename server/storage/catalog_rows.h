@@ -28,9 +28,10 @@ struct ShapeRow {
 
 // The columns that ReadCollectionRow and ReadShapeRow expect from column 0 on;
 // of shape s and collection c. Then come columns of the query's own.
-#define ARGMESH_COLLECTION_COLUMNS                                     \
-  "c.id, c.name, c.uid, c.display_name, c.settings, c.graph_version, " \
-  "c.generation, c.shape_count, c.revision, c.create_us, c.update_us"
+#define ARGMESH_COLLECTION_COLUMNS                                      \
+  "c.id, c.name, c.uid, c.display_name, c.settings, c.graph_version, "  \
+  "c.generation, c.shape_count, c.revision, c.create_us, c.update_us, " \
+  "c.metadata_keys"
 #define ARGMESH_SHAPE_COLUMNS                                               \
   "s.id, c.name, s.name, s.uid, s.state, s.error, s.sha256, s.size_bytes, " \
   "s.format, s.mesh_sha256 IS NOT NULL, s.display_name, s.source_uri, "     \
@@ -44,6 +45,9 @@ absl::StatusOr<ShapeRow> ReadShapeRow(const SqliteStatement& row);
 // kCollectionNotFound.
 absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
                                                 std::string_view id);
+// Metadata as its column has it.
+absl::StatusOr<std::map<std::string, std::string>> ParseMetadata(
+    const std::string& text);
 std::string SerializeMetadata(
     const std::map<std::string, std::string>& metadata);
 

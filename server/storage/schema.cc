@@ -109,7 +109,21 @@ CREATE TABLE surface_windows (
 ) STRICT;
 )sql";
 
-constexpr const char* kMigrations[] = {kVersion1, kVersion2};
+// The values of declared keys: TEXT, REAL or INTEGER (0, 1) by the key's type.
+constexpr char kVersion3[] = R"sql(
+ALTER TABLE collection ADD COLUMN metadata_keys BLOB NOT NULL DEFAULT x'';
+
+CREATE TABLE metadata_value (
+  collection_id  INTEGER NOT NULL REFERENCES collection(id) ON DELETE CASCADE,
+  key            TEXT    NOT NULL,
+  value          ANY     NOT NULL,
+  shape_id       INTEGER NOT NULL REFERENCES shape(id) ON DELETE CASCADE,
+  PRIMARY KEY (collection_id, key, value, shape_id)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX metadata_value_by_shape ON metadata_value(shape_id);
+)sql";
+
+constexpr const char* kMigrations[] = {kVersion1, kVersion2, kVersion3};
 
 // A copy of the database as it is before the first step.
 absl::Status CopyBefore(SqliteConnection& connection,

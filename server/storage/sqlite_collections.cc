@@ -5,6 +5,7 @@
 #include "server/engine/catalog_errors.h"
 #include "server/engine/record_codec.h"
 #include "server/storage/catalog_rows.h"
+#include "server/storage/metadata_values.h"
 #include "server/storage/request_memory.h"
 #include "server/storage/sqlite_catalog.h"
 #include "server/storage/unreferenced_mesh.h"
@@ -25,13 +26,14 @@ absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
   if (taken.ok()) return CollectionExistsError(record.id);
   if (!absl::IsNotFound(taken.status())) return taken.status();
   const std::string settings = SerializeCollectionSettings(record.settings);
+  const std::string keys = SerializeMetadataKeys(record.metadata_keys);
   ARGMESH_RETURN_IF_ERROR(
       connection
           .Run("INSERT INTO collection (name, uid, display_name, settings, "
-               "graph_version, revision, create_us, update_us) "
-               "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+               "metadata_keys, graph_version, revision, create_us, update_us) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
                record.id, record.uid, record.display_name, SqliteBlob(settings),
-               record.graph_version, record.revision,
+               SqliteBlob(keys), record.graph_version, record.revision,
                absl::ToUnixMicros(record.create_time),
                absl::ToUnixMicros(record.update_time))
           .status());
@@ -44,15 +46,21 @@ absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
 
 absl::StatusOr<CollectionRecord> Update(SqliteConnection& connection,
                                         const CollectionPatch& patch) {
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRow row,
                            FindCollectionRow(connection, patch.id));
   ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(row.record)));
+  if (patch.metadata_keys) {
+    row.record.metadata_keys = *patch.metadata_keys;
+    ARGMESH_RETURN_IF_ERROR(RewriteMetadataValues(connection, row));
+  }
+  const std::string keys = SerializeMetadataKeys(row.record.metadata_keys);
   ARGMESH_RETURN_IF_ERROR(
       connection
-          .Run("UPDATE collection SET display_name = ?, update_us = ?, "
-               "revision = revision + 1 WHERE id = ?",
+          .Run("UPDATE collection SET display_name = ?, metadata_keys = ?, "
+               "update_us = ?, revision = revision + 1 WHERE id = ?",
                patch.display_name.value_or(row.record.display_name),
-               absl::ToUnixMicros(patch.update_time), row.number)
+               SqliteBlob(keys), absl::ToUnixMicros(patch.update_time),
+               row.number)
           .status());
   ARGMESH_ASSIGN_OR_RETURN(CollectionRow updated,
                            FindCollectionRow(connection, patch.id));

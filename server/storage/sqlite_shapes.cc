@@ -7,6 +7,7 @@
 #include "server/engine/record_codec.h"
 #include "server/storage/catalog_rows.h"
 #include "server/storage/label_compression.h"
+#include "server/storage/metadata_values.h"
 #include "server/storage/request_memory.h"
 #include "server/storage/sqlite_catalog.h"
 #include "server/storage/unreferenced_mesh.h"
@@ -200,6 +201,8 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
   ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
                            AnswerStored(put, stored));
   if (kept) return *std::move(kept);
+  ARGMESH_RETURN_IF_ERROR(CheckDeclaredValues(collection.record.metadata_keys,
+                                              put.record.metadata));
 
   ShapeWritten written{put.record, put.collection_uid, true, {}};
   ARGMESH_ASSIGN_OR_RETURN(
@@ -213,6 +216,8 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
   ARGMESH_ASSIGN_OR_RETURN(const int64_t shape,
                            WriteShapeRow(connection, collection.number,
                                          written.record, bytes, stored));
+  ARGMESH_RETURN_IF_ERROR(
+      WriteMetadataValues(connection, collection, shape, put.record.metadata));
   ARGMESH_RETURN_IF_ERROR(WriteGraph(connection, shape, put, bytes));
   ARGMESH_RETURN_IF_ERROR(WriteDescriptors(connection, shape, put.descriptors));
   if (stored) {
@@ -236,7 +241,13 @@ absl::StatusOr<ShapeWritten> Patch(SqliteConnection& connection,
   ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
   if (patch.display_name) record.display_name = *patch.display_name;
   if (patch.source_uri) record.source_uri = *patch.source_uri;
-  if (patch.metadata) record.metadata = *patch.metadata;
+  if (patch.metadata) {
+    ARGMESH_RETURN_IF_ERROR(
+        CheckDeclaredValues(collection.record.metadata_keys, *patch.metadata));
+    record.metadata = *patch.metadata;
+    ARGMESH_RETURN_IF_ERROR(WriteMetadataValues(
+        connection, collection, stored->number, record.metadata));
+  }
   record.update_time = patch.update_time;
   ARGMESH_ASSIGN_OR_RETURN(record.generation,
                            LogChange(connection, collection.number, patch.id,

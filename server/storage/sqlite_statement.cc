@@ -73,6 +73,10 @@ void SqliteStatement::Bind(int64_t value) {
   Check(sqlite3_bind_int64(statement_, ++bound_, value));
 }
 
+void SqliteStatement::Bind(double value) {
+  Check(sqlite3_bind_double(statement_, ++bound_, value));
+}
+
 // Empty text and blobs are bound with a non-null pointer: null would be NULL.
 void SqliteStatement::Bind(std::string_view text) {
   Check(sqlite3_bind_text64(statement_, ++bound_,

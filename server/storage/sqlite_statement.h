@@ -44,6 +44,7 @@ class SqliteStatement {
   void Bind(int value) { Bind(int64_t{value}); }
   void Bind(uint32_t value) { Bind(int64_t{value}); }
   void Bind(bool value) { Bind(int64_t{value ? 1 : 0}); }
+  void Bind(double value);
   void Bind(std::string_view text);
   void Bind(const char* text) { Bind(std::string_view(text)); }
   void Bind(const std::string& text) { Bind(std::string_view(text)); }

@@ -122,6 +122,30 @@ TEST_F(UpdateTest, RenamesACollection) {
       INVALID_ARGUMENT, "FIELD_INVALID");
 }
 
+TEST_F(UpdateTest, DeclaresMetadataKeysThatTheShapesKeepTo) {
+  v1::Shape updated;
+  ASSERT_CALL_OK(Update(Change(), {"metadata"}, &updated));
+  v1::UpdateCollectionRequest request;
+  request.mutable_collection()->set_name("collections/parts");
+  v1::MetadataKey& key = *request.mutable_collection()->add_metadata_keys();
+  key.set_key("colour");
+  v1::Collection collection;
+  const auto declare = [&](v1::MetadataType type) {
+    key.set_type(type);
+    grpc::ClientContext context;
+    return server_.collections().UpdateCollection(&context, request,
+                                                  &collection);
+  };
+  EXPECT_FAILS(declare(v1::METADATA_TYPE_UNSPECIFIED), INVALID_ARGUMENT,
+               "FIELD_INVALID");
+  EXPECT_FAILS(declare(v1::METADATA_TYPE_NUMBER), INVALID_ARGUMENT,
+               "FIELD_INVALID");
+  ASSERT_CALL_OK(declare(v1::METADATA_TYPE_STRING));
+  ASSERT_EQ(collection.metadata_keys_size(), 1);
+  EXPECT_EQ(collection.metadata_keys(0).key(), "colour");
+  EXPECT_EQ(collection.metadata_keys(0).type(), v1::METADATA_TYPE_STRING);
+}
+
 TEST_F(UpdateTest, GetsManyShapesInTheOrderOfTheirNames) {
   server_.AddShape("parts", "sphere", SphereOff());
   v1::BatchGetShapesRequest request;

@@ -131,6 +131,13 @@ absl::StatusOr<CollectionRecord> MemoryCatalog::UpdateCollection(
   ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.id));
   CollectionRecord& record = collection->record;
   ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(record)));
+  if (patch.metadata_keys) {
+    for (const auto& [id, shape] : collection->shapes) {
+      ARGMESH_RETURN_IF_ERROR(
+          CheckStoredValues(*patch.metadata_keys, id, shape.record.metadata));
+    }
+    record.metadata_keys = *patch.metadata_keys;
+  }
   if (patch.display_name) record.display_name = *patch.display_name;
   record.update_time = patch.update_time;
   ++record.revision;
@@ -209,6 +216,8 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
                            AnswerStored(put, replaced));
   if (kept) return *std::move(kept);
+  ARGMESH_RETURN_IF_ERROR(CheckDeclaredValues(collection->record.metadata_keys,
+                                              put.record.metadata));
   ShapeWritten written{put.record, put.collection_uid, true, {}};
   if (replaced) {
     written.record.uid = replaced->uid;
@@ -235,6 +244,10 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::UpdateShape(
   }
   ShapeRecord& record = it->second.record;
   ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
+  if (patch.metadata) {
+    ARGMESH_RETURN_IF_ERROR(
+        CheckDeclaredValues(collection->record.metadata_keys, *patch.metadata));
+  }
   if (patch.display_name) record.display_name = *patch.display_name;
   if (patch.source_uri) record.source_uri = *patch.source_uri;
   if (patch.metadata) record.metadata = *patch.metadata;
@@ -266,120 +279,6 @@ absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
   deleted.unreferenced = Unreferenced(gone);
   Remember(removal.request, SerializeShapeDeleted(deleted));
   return deleted;
-}
-
-absl::StatusOr<ShapeRecord> MemoryCatalog::GetShape(std::string_view collection,
-                                                    std::string_view id) const {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
-  const auto it = found->shapes.find(id);
-  if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
-  return it->second.record;
-}
-
-absl::StatusOr<std::vector<ShapeRecord>> MemoryCatalog::ListShapes(
-    std::string_view collection, std::string_view after_id, int limit) const {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
-  std::vector<ShapeRecord> records;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(records.size()) < limit;
-       ++it) {
-    records.push_back(it->second.record);
-  }
-  return records;
-}
-
-void MemoryCatalog::DamageGraph(std::string_view collection,
-                                std::string_view id) {
-  const std::lock_guard lock(mutex_);
-  collections_.find(collection)->second.shapes.find(id)->second.damaged = true;
-}
-
-absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
-    std::string_view collection, std::string_view id, bool with_labels) const {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
-  const auto it = found->shapes.find(id);
-  if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
-  const ScannedGraph scanned = Scan(it->second);
-  ARGMESH_RETURN_IF_ERROR(scanned.status);
-  return StoredGraph{scanned.record, scanned.graph_version, scanned.graph,
-                     scanned.signature, with_labels ? it->second.labels : ""};
-}
-
-absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
-    std::string_view collection_uid, std::string_view after_id,
-    int limit) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  std::vector<ScannedGraph> scanned;
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr) return scanned;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(scanned.size()) < limit;
-       ++it) {
-    scanned.push_back(Scan(it->second));
-  }
-  return scanned;
-}
-
-absl::StatusOr<ScannedGraph> MemoryCatalog::FindGraph(
-    std::string_view collection_uid, std::string_view id) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr || !found->shapes.contains(id)) {
-    return ShapeNotFoundError(collection_uid, id);
-  }
-  return Scan(found->shapes.find(id)->second);
-}
-
-absl::StatusOr<std::string> MemoryCatalog::ReadWindows(
-    std::string_view collection_uid, std::string_view id) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr || !found->shapes.contains(id)) {
-    return ShapeNotFoundError(collection_uid, id);
-  }
-  return found->shapes.find(id)->second.descriptors.windows;
-}
-
-absl::StatusOr<std::vector<ShapeChange>> MemoryCatalog::ReadChanges(
-    std::string_view collection_uid, int64_t after_generation,
-    int limit) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  std::vector<ShapeChange> changes;
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr) return changes;
-  for (const ShapeChange& change : found->changes) {
-    if (change.generation > after_generation &&
-        static_cast<int>(changes.size()) < limit) {
-      changes.push_back(change);
-    }
-  }
-  return changes;
-}
-
-absl::StatusOr<bool> MemoryCatalog::IsMeshReferenced(
-    const Sha256Digest& sha256) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  return IsReferenced(sha256);
-}
-
-absl::StatusOr<std::optional<ShapeWritten>> MemoryCatalog::FindPutShape(
-    const RequestStamp& request) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
-                           Recall(request));
-  if (!answer) return std::nullopt;
-  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten found, ParseShapeWritten(*answer));
-  found.written = false;
-  return found;
 }
 
 absl::Status MemoryCatalog::Close() {

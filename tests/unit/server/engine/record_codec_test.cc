@@ -48,6 +48,8 @@ TEST(RecordCodec, GivesBackCollectionsAndRememberedAnswers) {
   CollectionRecord cups = SampleCollection("cups");
   cups.settings.decomposition = DecompositionKind::kVoronoi;
   cups.settings.store_meshes = false;
+  cups.metadata_keys = {{"class", MetadataType::kString},
+                        {"mass", MetadataType::kNumber}};
   cups.generation = 7;
   cups.revision = 3;
   ASSERT_OK_AND_ASSIGN(const CollectionRecord back,

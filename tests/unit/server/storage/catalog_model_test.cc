@@ -67,6 +67,25 @@ std::string Show(const ShapeWritten& written) {
 // One operation on any catalog; the same text from equal catalogs.
 using Operation = std::function<std::string(Catalog&)>;
 
+// Keys and values that meet often, also of the wrong type.
+std::vector<MetadataKey> RandomKeys(Random& random) {
+  std::vector<MetadataKey> keys;
+  for (const char* key : {"colour", "mass", "round"}) {
+    if (random.Below(3) == 0) continue;
+    keys.push_back({key, static_cast<MetadataType>(1 + random.Below(3))});
+  }
+  return keys;
+}
+
+std::map<std::string, std::string> RandomMetadata(Random& random) {
+  constexpr const char* kValues[] = {"1", "2", "true", "false", "red", "10"};
+  std::map<std::string, std::string> metadata;
+  for (const char* key : {"colour", "mass", "round"}) {
+    if (random.Below(2) == 0) metadata[key] = kValues[random.Below(6)];
+  }
+  return metadata;
+}
+
 class Operations {
  public:
   explicit Operations(uint64_t seed) : random_(seed) {}
@@ -130,7 +149,8 @@ class Operations {
   }
 
   Operation InsertCollection() {
-    const CollectionRecord record = SampleCollection(CollectionId());
+    CollectionRecord record = SampleCollection(CollectionId());
+    record.metadata_keys = RandomKeys(random_);
     const RequestStamp stamp = Stamp("InsertCollection", record.id);
     return [=](Catalog& catalog) {
       return "insert " + record.id + ": " +
@@ -143,6 +163,7 @@ class Operations {
     CollectionPatch patch;
     patch.id = CollectionId();
     patch.display_name = absl::StrCat("name ", random_.Below(100));
+    if (random_.Below(2) == 0) patch.metadata_keys = RandomKeys(random_);
     patch.etag = EtagOfCollection(model, patch.id);
     patch.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
@@ -173,6 +194,7 @@ class Operations {
     ShapePut put = SamplePut(
         record.ok() ? *record : SampleCollection(collection), ShapeId(), mesh);
     put.record.mesh_stored = random_.Below(4) != 0;
+    put.record.metadata = RandomMetadata(random_);
     put.if_exists = static_cast<IfExists>(random_.Below(3));
     put.etag = EtagOfShape(model, collection, put.record.id);
     put.request = Stamp("PutShape", absl::StrCat(put.record.id, mesh));
@@ -188,8 +210,7 @@ class Operations {
     patch.id = ShapeId();
     if (random_.Below(2) == 0) patch.display_name = "another name";
     if (random_.Below(2) == 0) patch.source_uri = "file:///elsewhere";
-    if (random_.Below(2) == 0)
-      patch.metadata = std::map<std::string, std::string>{{"key", "value"}};
+    if (random_.Below(2) == 0) patch.metadata = RandomMetadata(random_);
     patch.etag = EtagOfShape(model, patch.collection, patch.id);
     patch.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));

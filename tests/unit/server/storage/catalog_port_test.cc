@@ -1,4 +1,5 @@
 // What every Catalog promises, whatever it is made of.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,50 @@ TEST_P(CatalogPortTest, ListsCollectionsByIdFromAnyPlace) {
                        catalog_->ListCollections(first[1].id, 10));
   ASSERT_EQ(rest.size(), 2U);
   EXPECT_EQ(rest[1].id, "d");
+}
+
+TEST_P(CatalogPortTest, RefusesAMetadataValueThatHasNotItsDeclaredType) {
+  CollectionRecord cups = SampleCollection("cups");
+  cups.metadata_keys = {{"mass", MetadataType::kNumber}};
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  ShapePut put = SamplePut(cups, "red", 1);
+  put.record.metadata = {{"mass", "heavy"}};
+  EXPECT_EQ(ReasonOrOk(catalog_->PutShape(put)), ErrorReason::kFieldInvalid);
+  EXPECT_EQ(ReasonOrOk(catalog_->GetShape("cups", "red")),
+            ErrorReason::kShapeNotFound);
+  put.record.metadata = {{"mass", "3"}};
+  ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  ShapePatch patch;
+  patch.collection = "cups";
+  patch.id = "red";
+  patch.metadata = std::map<std::string, std::string>{{"mass", ""}};
+  EXPECT_EQ(ReasonOrOk(catalog_->UpdateShape(patch)),
+            ErrorReason::kFieldInvalid);
+  ASSERT_OK_AND_ASSIGN(const ShapeRecord red,
+                       catalog_->GetShape("cups", "red"));
+  EXPECT_EQ(red.metadata.at("mass"), "3");
+}
+
+TEST_P(CatalogPortTest, RefusesATypeThatAStoredValueHasNot) {
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  ShapePut put = SamplePut(cups, "red", 1);
+  put.record.metadata = {{"mass", "heavy"}};
+  ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  CollectionPatch patch{
+      .id = "cups",
+      .metadata_keys = std::vector<MetadataKey>{{"mass", MetadataType::kBool}}};
+  const auto refused = catalog_->UpdateCollection(patch);
+  EXPECT_EQ(ReasonOrOk(refused), ErrorReason::kFieldInvalid);
+  EXPECT_EQ(MetadataOf(refused.status()).at("shape"), "red");
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord read,
+                       catalog_->GetCollection("cups"));
+  EXPECT_THAT(read.metadata_keys, IsEmpty());
+  patch.metadata_keys->front().type = MetadataType::kString;
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord declared,
+                       catalog_->UpdateCollection(patch));
+  EXPECT_EQ(declared.metadata_keys, *patch.metadata_keys);
+  EXPECT_EQ(declared.display_name, cups.display_name);
 }
 
 TEST_P(CatalogPortTest, UpdatesACollectionOnlyUnderItsEtag) {
