@@ -134,6 +134,15 @@ absl::Status Client::ForEachCollection(
   return absl::OkStatus();
 }
 
+absl::StatusOr<v1::Collection> Client::UpdateCollection(
+    const v1::UpdateCollectionRequest& request) {
+  return parts_->Call<v1::Collection>(
+      Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+        return parts_->collections->UpdateCollection(context, request,
+                                                     response);
+      });
+}
+
 absl::Status Client::DeleteCollection(
     const v1::DeleteCollectionRequest& request) {
   return parts_

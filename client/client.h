@@ -70,6 +70,8 @@ class Client {
   // All pages, until `visit` returns false.
   absl::Status ForEachCollection(
       const std::function<bool(const v1::Collection&)>& visit);
+  absl::StatusOr<v1::Collection> UpdateCollection(
+      const v1::UpdateCollectionRequest& request);
   absl::Status DeleteCollection(const v1::DeleteCollectionRequest& request);
 
   // --- shapes --------------------------------------------------------------
@@ -81,7 +83,8 @@ class Client {
   absl::StatusOr<v1::ListShapesResponse> ListShapes(
       const v1::ListShapesRequest& request);
   absl::Status ForEachShape(std::string_view collection_name,
-                            const std::function<bool(const v1::Shape&)>& visit);
+                            const std::function<bool(const v1::Shape&)>& visit,
+                            const std::string& filter = "");
   absl::StatusOr<v1::DeleteShapeResponse> DeleteShape(
       v1::DeleteShapeRequest request);
   // Checked against the announced size and SHA-256.

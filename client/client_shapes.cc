@@ -106,9 +106,11 @@ absl::StatusOr<v1::ListShapesResponse> Client::ListShapes(
 
 absl::Status Client::ForEachShape(
     std::string_view collection_name,
-    const std::function<bool(const v1::Shape&)>& visit) {
+    const std::function<bool(const v1::Shape&)>& visit,
+    const std::string& filter) {
   v1::ListShapesRequest request;
   request.set_parent(std::string(collection_name));
+  request.set_filter(filter);
   request.set_page_size(kPageSize);
   do {
     ARGMESH_ASSIGN_OR_RETURN(const v1::ListShapesResponse page,

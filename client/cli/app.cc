@@ -68,6 +68,7 @@ void AddCommands(CLI::App& app, CommandSet& commands) {
   AddIngestCommand(app, commands);
   AddSearchCommand(app, commands);
   AddCompareCommand(app, commands);
+  AddDeclareCommand(app, commands);
   AddListCommand(app, commands);
   AddGetCommand(app, commands);
   AddDeleteCommand(app, commands);

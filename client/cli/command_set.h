@@ -46,6 +46,7 @@ CLI::Option* AddCollectionOption(CLI::App* command, std::string& collection);
 void AddIngestCommand(CLI::App& app, CommandSet& commands);
 void AddSearchCommand(CLI::App& app, CommandSet& commands);
 void AddCompareCommand(CLI::App& app, CommandSet& commands);
+void AddDeclareCommand(CLI::App& app, CommandSet& commands);
 void AddListCommand(CLI::App& app, CommandSet& commands);
 void AddGetCommand(CLI::App& app, CommandSet& commands);
 void AddDeleteCommand(CLI::App& app, CommandSet& commands);

@@ -17,6 +17,8 @@ the path relative to the file of queries, the source the shape a query was made
 from (its source_uri or id, `-` for none). It is left out of the measures;
 source_first and source_top5 say how often it came first or among five.
 
+With --filter only the shapes it holds for are queries and found.
+
 Examples:
   argmesh evaluate --collection bench --mode global
   argmesh evaluate --collection bench --mode partial --queries cuts.tsv --json)";
@@ -46,6 +48,7 @@ void AddEvaluateCommand(CLI::App& app, CommandSet& commands) {
         return Evaluate(session, *arguments);
       });
   AddMatchOptions(command, arguments->match);
+  AddFilterOption(command, arguments->filter);
   command->add_option("--queries", arguments->queries, "Table of query files")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);

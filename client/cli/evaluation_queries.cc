@@ -23,16 +23,19 @@ Gallery::Gallery(std::vector<GalleryShape> shapes)
 }
 
 absl::StatusOr<Gallery> Gallery::Fetch(Client& client,
-                                       const std::string& collection) {
+                                       const std::string& collection,
+                                       const std::string& filter) {
   std::vector<GalleryShape> shapes;
   ARGMESH_RETURN_IF_ERROR(client.ForEachShape(
-      CollectionName(collection), [&shapes](const v1::Shape& shape) {
+      CollectionName(collection),
+      [&shapes](const v1::Shape& shape) {
         if (shape.state() == v1::SHAPE_STATE_ACTIVE) {
           shapes.push_back(
               {ResourceId(shape.name()), ClassOf(shape), shape.source_uri()});
         }
         return true;
-      }));
+      },
+      filter));
   return Gallery(std::move(shapes));
 }
 

@@ -24,8 +24,10 @@ struct GalleryShape {
 class Gallery {
  public:
   explicit Gallery(std::vector<GalleryShape> shapes);
+  // Those that `filter` holds for; all when it is empty.
   static absl::StatusOr<Gallery> Fetch(Client& client,
-                                       const std::string& collection);
+                                       const std::string& collection,
+                                       const std::string& filter);
 
   const std::vector<GalleryShape>& shapes() const { return shapes_; }
   std::optional<size_t> FindId(const std::string& id) const;

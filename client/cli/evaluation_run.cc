@@ -67,7 +67,8 @@ absl::Status EvaluationJob::Prepare() {
     limit_ = info.limits().max_search_limit();
   }
   ARGMESH_ASSIGN_OR_RETURN(
-      gallery_, Gallery::Fetch(*client_, arguments_.match.collection));
+      gallery_,
+      Gallery::Fetch(*client_, arguments_.match.collection, arguments_.filter));
   if (arguments_.queries.empty()) {
     queries_ = LeaveOneOutQueries(gallery_);
     if (queries_.empty()) {
@@ -103,6 +104,7 @@ absl::StatusOr<v1::SearchShapesRequest> EvaluationJob::MakeRequest(
   request.set_mode(ModeOf(arguments_.match));
   *request.mutable_parameters() = ParametersOf(arguments_.match);
   request.mutable_parameters()->set_rerank(arguments_.rerank);
+  request.set_filter(arguments_.filter);
   request.set_limit(limit_);
   request.set_exact(arguments_.exact);
   request.set_omit_component_pairs(true);

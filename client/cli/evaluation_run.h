@@ -23,6 +23,7 @@ namespace argmesh {
 
 struct EvaluateArguments {
   MatchArguments match;
+  std::string filter;   // only shapes it holds for; empty: all
   std::string queries;  // table of query files; empty: leave one out
   std::string scores;   // file for the raw scores; empty for none
   int jobs = 2;         // queries at a time

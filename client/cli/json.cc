@@ -124,6 +124,11 @@ Json ErrorToJson(const absl::Status& status) {
 
 Json ToJson(const v1::Collection& collection) {
   const v1::CollectionSettings& settings = collection.settings();
+  Json keys = Json::object();
+  for (const v1::MetadataKey& key : collection.metadata_keys()) {
+    keys[key.key()] = EnumName(v1::MetadataType_Name(key.type()),
+                               std::string("METADATA_TYPE_").size());
+  }
   return {{"collection", ResourceId(collection.name())},
           {"display_name", collection.display_name()},
           {"shape_count", collection.shape_count()},
@@ -131,6 +136,7 @@ Json ToJson(const v1::Collection& collection) {
           {"vertex_budget", settings.vertex_budget()},
           {"uniform_cells", settings.uniform_cells()},
           {"store_meshes", settings.store_meshes()},
+          {"metadata_keys", std::move(keys)},
           {"graph_version", collection.graph_version()},
           {"generation", collection.generation()},
           {"create_time", TimeUtil::ToString(collection.create_time())},

@@ -2,6 +2,7 @@
 
 #include "absl/strings/str_format.h"
 #include "client/cli/command_set.h"
+#include "client/cli/search_options.h"
 #include "client/cli/text_table.h"
 #include "client/resource_name.h"
 #include "core/base/status_macros.h"
@@ -16,11 +17,13 @@ of them unless --limit is given.
 Examples:
   argmesh list
   argmesh list --collection parts --limit 20
+  argmesh list --collection parts --filter 'mass < 2 AND NOT class = cup'
   argmesh list --collection parts --json)";
 
 struct ListArguments {
   std::string collection;
-  int64_t limit = 0;  // 0: all
+  std::string filter;  // of the shapes
+  int64_t limit = 0;   // 0: all
 };
 
 absl::StatusOr<int> ListCollections(const Session& session, Client& client,
@@ -52,7 +55,8 @@ absl::StatusOr<int> ListShapes(const Session& session, Client& client,
       {"shape", "class", "format", ">vertices", ">faces", "source"});
   int64_t count = 0;
   ARGMESH_RETURN_IF_ERROR(client.ForEachShape(
-      CollectionName(arguments.collection), [&](const v1::Shape& shape) {
+      CollectionName(arguments.collection),
+      [&](const v1::Shape& shape) {
         if (session.options.json) {
           json.push_back(ToJson(shape));
         } else {
@@ -63,7 +67,8 @@ absl::StatusOr<int> ListShapes(const Session& session, Client& client,
                         std::to_string(report.faces()), shape.source_uri()});
         }
         return ++count != arguments.limit;
-      }));
+      },
+      arguments.filter));
   if (session.options.json) {
     session.Print(
         {{"collection", arguments.collection}, {"shapes", std::move(json)}});
@@ -80,12 +85,16 @@ void AddListCommand(CLI::App& app, CommandSet& commands) {
   CLI::App* command = commands.Add(
       app, {"list", "List collections, or the shapes of one.", kDetails},
       [arguments](const Session& session) -> absl::StatusOr<int> {
+        if (arguments->collection.empty() && !arguments->filter.empty()) {
+          return UsageError("--filter needs --collection");
+        }
         ARGMESH_ASSIGN_OR_RETURN(const auto client, session.Connect());
         return arguments->collection.empty()
                    ? ListCollections(session, *client, arguments->limit)
                    : ListShapes(session, *client, *arguments);
       });
   AddCollectionOption(command, arguments->collection)->required(false);
+  AddFilterOption(command, arguments->filter);
   command->add_option("--limit", arguments->limit, "At most so many; 0: all")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);

@@ -56,6 +56,15 @@ void AddRerankOption(CLI::App* command, bool& rerank) {
       "Order a global answer by the neighbourhoods of its shapes");
 }
 
+void AddFilterOption(CLI::App* command, std::string& filter) {
+  command
+      ->add_option("--filter", filter,
+                   "Only shapes whose metadata it holds for, such as "
+                   "'class = cup AND mass < 2'; of keys that `argmesh declare` "
+                   "declared")
+      ->type_name("FILTER");
+}
+
 v1::SearchMode ModeOf(const MatchArguments& arguments) {
   return arguments.mode == "partial" ? v1::SEARCH_MODE_PARTIAL
                                      : v1::SEARCH_MODE_GLOBAL;
@@ -96,6 +105,7 @@ void AddSearchOptions(CLI::App* command, SearchArguments& arguments) {
                    "Only matches that cover this share of the query's area")
       ->type_name("0..1")
       ->check(CLI::Range(0.0, 1.0));
+  AddFilterOption(command, arguments.filter);
   command->add_flag("--include-self", arguments.include_self,
                     "Leave the shape of --shape in its own answer (default: "
                     "it is left out)");
@@ -138,6 +148,7 @@ absl::StatusOr<v1::SearchShapesRequest> MakeSearchRequest(
   request.set_limit(arguments.limit);
   request.set_min_score(arguments.min_score);
   request.set_min_query_coverage(arguments.min_query_coverage);
+  request.set_filter(arguments.filter);
   request.set_explain(arguments.explain);
   *request.mutable_parameters() = ParametersOf(arguments.match);
   request.mutable_parameters()->set_rerank(arguments.rerank);

@@ -41,10 +41,15 @@ struct SearchArguments {
   double min_score = 0;
   double min_query_coverage = 0;
   bool include_self = false;
+  std::string filter;  // over metadata; empty: all shapes
   bool explain = false;
 };
 
-// AddMatchOptions, --shape, FILE, --limit, --min-score, --min-coverage,
+// --filter, as docs/api.md has it.
+void AddFilterOption(CLI::App* command, std::string& filter);
+
+// AddMatchOptions, AddFilterOption, --shape, FILE, --limit, --min-score,
+// --min-coverage,
 // --include-self, --region, --rerank.
 void AddSearchOptions(CLI::App* command, SearchArguments& arguments);
 

@@ -97,6 +97,7 @@ class Chain {
     VoteOptions vote_options;
     vote_options.limit = std::max(options_.exact_limit, options_.limit);
     vote_options.flipped = flipped_;
+    vote_options.slots = options_.slots;
     ARGMESH_ASSIGN_OR_RETURN(votes_, index_.Vote(query_, vote_options, stop_));
     index_time_ = watch.Lap();
     return absl::OkStatus();

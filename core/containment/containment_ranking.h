@@ -34,6 +34,8 @@ struct RankContainmentOptions {
   int thorough_limit = 20;  // >= 1
   bool try_flipped = true;
   uint64_t seed = 1;
+  // As VoteOptions::slots: shapes that may be found, null for all.
+  const std::vector<bool>* slots = nullptr;
 };
 
 struct RankedContainment {

@@ -122,6 +122,20 @@ VoteResult WeighWindows(const QueryWindows& query,
   return result;
 }
 
+// The slots of block `number` that may be returned.
+SlotBits ReturnedSlots(const SlotBits& used, size_t number,
+                       const std::vector<bool>* slots) {
+  if (slots == nullptr) return used;
+  SlotBits returned = used;
+  ForEachSlot(used, [&](size_t slot) {
+    const size_t at = number * kSlots + slot;
+    if (at >= slots->size() || !(*slots)[at]) {
+      returned[slot / 64] &= ~(uint64_t{1} << (slot % 64));
+    }
+  });
+  return returned;
+}
+
 }  // namespace
 
 WindowIndex::Block& WindowIndex::MutableBlock(int64_t slot) {
@@ -195,8 +209,11 @@ absl::StatusOr<std::vector<double>> WindowIndex::CommonShares(
 
 void WindowIndex::VoteInBlock(size_t number,
                               const std::vector<SoftWindow>& windows,
+                              const std::vector<bool>* slots,
                               VoteResult& result) const {
   const Block& block = *blocks_[number];
+  const SlotBits returned = ReturnedSlots(block.used, number, slots);
+  if (Count(returned) == 0) return;
   std::array<std::array<float, kNumShifts>, kSlots> sums{};
   for (size_t i = 0; i < windows.size(); ++i) {
     for (int shift = 0; shift < kNumShifts; ++shift) {
@@ -211,7 +228,7 @@ void WindowIndex::VoteInBlock(size_t number,
       }
     }
   }
-  ForEachSlot(block.used, [&](size_t slot) {
+  ForEachSlot(returned, [&](size_t slot) {
     ShapeVotes votes;
     votes.slot = static_cast<int64_t>(number * kSlots + slot);
     for (size_t shift = 0; shift < kNumShifts; ++shift) {
@@ -234,7 +251,7 @@ absl::StatusOr<VoteResult> WindowIndex::Vote(const QueryWindows& query,
   VoteResult result = WeighWindows(query, windows, common);
   for (size_t b = 0; b < blocks_.size(); ++b) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
-    if (blocks_[b] != nullptr) VoteInBlock(b, windows, result);
+    if (blocks_[b] != nullptr) VoteInBlock(b, windows, options.slots, result);
   }
   const size_t kept = std::min(result.shapes.size(),
                                static_cast<size_t>(std::max(1, options.limit)));

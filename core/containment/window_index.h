@@ -38,6 +38,8 @@ struct SoftWindow;
 struct VoteOptions {
   int limit = 150;       // shapes returned, >= 1
   bool flipped = false;  // look for the query turned inside out
+  // By slot: those that may be returned. Null: all. Borrowed.
+  const std::vector<bool>* slots = nullptr;
 };
 
 class WindowIndex {
@@ -62,7 +64,7 @@ class WindowIndex {
   absl::StatusOr<std::vector<double>> CommonShares(
       const std::vector<SoftWindow>& windows, const StopToken& stop) const;
   void VoteInBlock(size_t number, const std::vector<SoftWindow>& windows,
-                   VoteResult& result) const;
+                   const std::vector<bool>* slots, VoteResult& result) const;
 
   std::vector<std::shared_ptr<Block>> blocks_;
   int64_t size_ = 0;

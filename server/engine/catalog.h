@@ -62,10 +62,10 @@ class Catalog {
   // kCollectionNotFound, kShapeNotFound.
   virtual absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                                std::string_view id) const = 0;
-  // By id, ascending, after `after_id`. kCollectionNotFound.
+  // By id, ascending. kCollectionNotFound, kFilterInvalid,
+  // kFilterKeyUndeclared.
   virtual absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
-      std::string_view collection, std::string_view after_id,
-      int limit) const = 0;
+      std::string_view collection, const ShapeSlice& slice) const = 0;
 
   // --- graphs ------------------------------------------------------------
   // kCollectionNotFound, kShapeNotFound; the labels only when asked for.

@@ -73,6 +73,13 @@ struct ShapePut {
   RequestStamp request;
 };
 
+// A piece of a list of shapes.
+struct ShapeSlice {
+  std::string after_id;  // begins with the next id; empty: with the first
+  int limit = 0;
+  std::string filter;  // MetadataFilter over the declared keys; empty: all
+};
+
 struct ShapeWritten {
   ShapeRecord record;
   std::string collection_uid;

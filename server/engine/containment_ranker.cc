@@ -19,15 +19,13 @@ constexpr int kExactLimit = 150;
 // Reads candidates' windows; safe to call from any thread.
 class WindowLoader {
  public:
-  WindowLoader(const Catalog& catalog, const GallerySnapshot& gallery,
-               const std::string& exclude_id)
-      : catalog_(catalog), gallery_(gallery), exclude_id_(exclude_id) {}
+  WindowLoader(const Catalog& catalog, const GallerySnapshot& gallery)
+      : catalog_(catalog), gallery_(gallery) {}
 
-  // Null for the excluded shape, for one that went since the snapshot and for
-  // one that cannot be read.
+  // Null for a shape that went since the snapshot and for one that cannot be
+  // read.
   absl::StatusOr<std::shared_ptr<const TargetWindows>> Load(int64_t slot) {
     const std::string& id = gallery_.entry(slot)->record.id;
-    if (id == exclude_id_) return nullptr;
     const absl::StatusOr<std::string> bytes =
         catalog_.ReadWindows(gallery_.collection_uid, id);
     if (absl::IsNotFound(bytes.status())) return nullptr;
@@ -48,16 +46,14 @@ class WindowLoader {
  private:
   const Catalog& catalog_;
   const GallerySnapshot& gallery_;
-  const std::string& exclude_id_;
   std::atomic<int64_t> damaged_{0};
 };
 
-RankContainmentOptions OptionsOf(const ContainmentQuery& query, int64_t size) {
-  const int all = static_cast<int>(std::max<int64_t>(size, 1));
-  // One more: the shape to be left out takes a place.
-  const int limit = query.limit + (query.exclude_id.empty() ? 0 : 1);
+RankContainmentOptions OptionsOf(const ContainmentQuery& query) {
+  const int all = static_cast<int>(std::max<int64_t>(query.slots.count, 1));
   RankContainmentOptions options;
-  options.limit = std::min(limit, all);
+  options.slots = &query.slots.slots;
+  options.limit = std::min(query.limit, all);
   options.exact_limit = query.candidates > 0 ? query.candidates : kExactLimit;
   options.exact_limit = std::clamp(options.exact_limit, options.limit, all);
   if (query.exact) {
@@ -75,15 +71,6 @@ ContainmentMatch WholeMatch() {
   match.verified = true;
   match.query_coverage = match.target_coverage = 1;
   return match;
-}
-
-bool Holds(const GallerySnapshot& gallery, const std::string& id) {
-  for (const auto& block : gallery.blocks) {
-    for (const GalleryEntryPtr& entry : *block) {
-      if (entry != nullptr && entry->record.id == id) return true;
-    }
-  }
-  return false;
 }
 
 bool RanksBefore(const ContainingShape& a, const ContainingShape& b) {
@@ -107,13 +94,12 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
     const GallerySnapshot& gallery, const ContainmentQuery& query,
     const StopToken& stop) const {
   ContainmentAnswer answer;
-  WindowLoader loader(catalog_, gallery, query.exclude_id);
+  WindowLoader loader(catalog_, gallery);
   ARGMESH_ASSIGN_OR_RETURN(
       ContainmentRanking ranking,
       RankContainment(
           query.windows, gallery.windows,
-          [&](int64_t slot) { return loader.Load(slot); },
-          OptionsOf(query, gallery.size),
+          [&](int64_t slot) { return loader.Load(slot); }, OptionsOf(query),
           [this](int64_t count, const std::function<void(int64_t)>& body) {
             pool_.ParallelFor(WorkClass::kSearch, count, body);
           },
@@ -129,12 +115,8 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
     }
   }
   std::sort(answer.shapes.begin(), answer.shapes.end(), RanksBefore);
-  if (answer.shapes.size() > static_cast<size_t>(query.limit)) {
-    answer.shapes.resize(static_cast<size_t>(query.limit));
-  }
   answer.generic = ranking.generic;
-  answer.considered = ranking.considered;
-  if (Holds(gallery, query.exclude_id)) --answer.considered;
+  answer.considered = query.slots.count;
   answer.matched = ranking.loaded;
   answer.damaged = loader.damaged();
   answer.candidate_time = ranking.index_time;

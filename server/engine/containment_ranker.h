@@ -20,6 +20,7 @@
 #include "server/engine/compute_pool.h"
 #include "server/engine/gallery_snapshot.h"
 #include "server/engine/search_requests.h"
+#include "server/engine/slot_selection.h"
 
 namespace argmesh {
 
@@ -32,7 +33,7 @@ struct ContainmentQuery {
   bool exact = false;  // all of them
   double min_score = 0;
   double min_query_coverage = 0;
-  std::string exclude_id;  // of the collection; empty: none
+  const SlotSelection& slots;  // that may be found
 };
 
 struct ContainingShape {

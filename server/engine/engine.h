@@ -64,9 +64,11 @@ class Engine {
   absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
                                       const StopToken& stop = {});
   absl::StatusOr<ShapeRecord> GetShape(const ShapeRef& shape) const;
-  // kPageTokenInvalid.
+  // Those that `filter` (MetadataFilter) holds for. kPageTokenInvalid, also
+  // with another filter, kFilterInvalid, kFilterKeyUndeclared.
   absl::StatusOr<ShapePage> ListShapes(std::string_view collection,
-                                       const PageRequest& page) const;
+                                       const PageRequest& page,
+                                       const std::string& filter = "") const;
   // kEtagMismatch.
   absl::StatusOr<ShapeRecord> UpdateShape(ShapePatch patch);
   // The collection's generation after it. kEtagMismatch, kRequestIdReused.
@@ -80,7 +82,7 @@ class Engine {
 
   // --- search --------------------------------------------------------------
   // kIndexLoading, kGenerationNotReached, kMesh..., kGraphVersionMismatch,
-  // kGraphInvalid, kNodeNotFound.
+  // kGraphInvalid, kNodeNotFound, kFilterInvalid, kFilterKeyUndeclared.
   absl::StatusOr<SearchAnswer> Search(const SearchQuery& query,
                                       const StopToken& stop = {}) const;
   absl::StatusOr<ComparedShapes> Compare(const CompareQuery& query,

@@ -130,16 +130,18 @@ absl::StatusOr<ShapeRecord> Engine::GetShape(const ShapeRef& shape) const {
 }
 
 absl::StatusOr<ShapePage> Engine::ListShapes(std::string_view collection,
-                                             const PageRequest& page) const {
+                                             const PageRequest& page,
+                                             const std::string& filter) const {
   ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", collection));
-  const std::string list = "shapes/" + std::string(collection);
+  const std::string list = "shapes/" + std::string(collection) + "?" + filter;
   ARGMESH_ASSIGN_OR_RETURN(const int size, CheckPageSize(page.page_size));
   ARGMESH_ASSIGN_OR_RETURN(const std::string after,
                            ParsePageToken(list, page.page_token));
   ShapePage answer;
   ARGMESH_ASSIGN_OR_RETURN(
-      answer.shapes, parts_->catalog->ListShapes(collection, after, size + 1));
+      answer.shapes,
+      parts_->catalog->ListShapes(collection, {after, size + 1, filter}));
   answer.next_page_token =
       CutPage(answer.shapes, static_cast<size_t>(size), page.max_bytes, list,
               [](const ShapeRecord& record) {

@@ -34,6 +34,7 @@ constexpr ReasonEntry kReasons[] = {
     {ErrorReason::kFilterInvalid, "FILTER_INVALID", kInvalid},
     {ErrorReason::kStreamOrderInvalid, "STREAM_ORDER_INVALID", kInvalid},
     {ErrorReason::kRequestIdReused, "REQUEST_ID_REUSED", kInvalid},
+    {ErrorReason::kFilterKeyUndeclared, "FILTER_KEY_UNDECLARED", kInvalid},
     {ErrorReason::kMeshMalformed, "MESH_MALFORMED", kInvalid},
     {ErrorReason::kMeshFormatUnknown, "MESH_FORMAT_UNKNOWN", kInvalid},
     {ErrorReason::kMeshEmpty, "MESH_EMPTY", kInvalid},

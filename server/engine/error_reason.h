@@ -24,6 +24,7 @@ enum class ErrorReason {
   kFilterInvalid = 5,
   kStreamOrderInvalid = 6,
   kRequestIdReused = 7,
+  kFilterKeyUndeclared = 8,
 
   kMeshMalformed = 20,
   kMeshFormatUnknown = 21,

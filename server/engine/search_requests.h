@@ -53,6 +53,7 @@ struct SearchQuery {
   bool exclude_query = false;     // leave a stored query out of its answer
   bool correspondence = true;     // fill MatchResult::pairs
   bool query_graph = false;       // fill SearchAnswer::query_graph
+  std::string filter;             // MetadataFilter; empty: all shapes
   int64_t min_generation = 0;     // refuse to answer from an older state
 };
 

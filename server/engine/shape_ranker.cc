@@ -41,14 +41,12 @@ MatchOptions ScanOptions(const RankQuery& query) {
 
 // The entries a query may find, in the order of their slots.
 std::vector<RankedShape> ListShapes(const GallerySnapshot& gallery,
-                                    const std::string& exclude_id) {
+                                    const SlotSelection& selection) {
   std::vector<RankedShape> shapes;
-  shapes.reserve(static_cast<size_t>(gallery.size));
-  for (const auto& block : gallery.blocks) {
-    for (const GalleryEntryPtr& entry : *block) {
-      if (entry == nullptr || entry->record.id == exclude_id) continue;
-      shapes.push_back({.entry = entry});
-    }
+  shapes.reserve(static_cast<size_t>(selection.count));
+  for (size_t slot = 0; slot < selection.slots.size(); ++slot) {
+    if (!selection.slots[slot]) continue;
+    shapes.push_back({.entry = gallery.entry(static_cast<int64_t>(slot))});
   }
   return shapes;
 }
@@ -61,7 +59,7 @@ class TwoStageRanker : public ShapeRanker {
                                const RankQuery& query,
                                const StopToken& stop) const override {
     Ranking ranking;
-    ranking.shapes = ListShapes(gallery, query.exclude_id);
+    ranking.shapes = ListShapes(gallery, query.slots);
     ranking.considered = static_cast<int64_t>(ranking.shapes.size());
     if (query.signature != nullptr) {
       ForEach(ranking.shapes, stop, [&](RankedShape& shape) {

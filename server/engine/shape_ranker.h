@@ -17,6 +17,7 @@
 #include "server/engine/compute_pool.h"
 #include "server/engine/gallery_snapshot.h"
 #include "server/engine/search_requests.h"
+#include "server/engine/slot_selection.h"
 
 namespace argmesh {
 
@@ -31,7 +32,7 @@ struct RankQuery {
   int limit = 10;
   double min_score = 0;
   double min_query_coverage = 0;
-  std::string exclude_id;  // of the collection; empty: none
+  const SlotSelection& slots;  // that may be found
 };
 
 struct RankedShape {
@@ -45,7 +46,7 @@ struct Ranking {
   std::vector<RankedShape> shapes;  // by score, descending, then by id
   int64_t considered = 0;
   int64_t matched = 0;
-  bool exhaustive = true;  // every entry was matched
+  bool exhaustive = true;  // every one considered was matched
 };
 
 class ShapeRanker {

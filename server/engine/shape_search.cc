@@ -54,7 +54,8 @@ Handedness HandednessOf(const PackedSignature& a, const PackedSignature& b,
                                 : CompareHandedness(a, b);
 }
 
-RankQuery RankQueryOf(const SearchQuery& query, const MatchableGraph& graph,
+RankQuery RankQueryOf(const SearchQuery& query, const SlotSelection& slots,
+                      const MatchableGraph& graph,
                       const PackedSignature* signature) {
   return {.graph = graph,
           .mode = query.mode,
@@ -65,7 +66,7 @@ RankQuery RankQueryOf(const SearchQuery& query, const MatchableGraph& graph,
           .limit = query.limit,
           .min_score = query.min_score,
           .min_query_coverage = query.min_query_coverage,
-          .exclude_id = ExcludedId(query)};
+          .slots = slots};
 }
 
 }  // namespace
@@ -80,6 +81,25 @@ ShapeSearch::ShapeSearch(const EngineOptions& options, const Catalog& catalog,
       ranker_(MakeTwoStageRanker(pool)),
       containment_(catalog, pool) {}
 
+absl::StatusOr<ShapeSearch::SearchedShapes> ShapeSearch::Select(
+    const SearchQuery& query, const StopToken& stop) const {
+  SearchedShapes searched;
+  ARGMESH_ASSIGN_OR_RETURN(
+      searched.gallery,
+      gallery_.Snapshot(query.collection, query.min_generation));
+  MetadataFilter filter;
+  if (!query.filter.empty()) {
+    ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
+                             catalog_.GetCollection(query.collection));
+    ARGMESH_ASSIGN_OR_RETURN(
+        filter, MetadataFilter::Parse(query.filter, collection.metadata_keys));
+  }
+  ARGMESH_ASSIGN_OR_RETURN(
+      searched.slots,
+      SelectSlots(*searched.gallery, filter, ExcludedId(query), stop));
+  return searched;
+}
+
 absl::StatusOr<ResolvedQuery> ShapeSearch::Resolve(
     const SearchQuery& query, const CollectionSettings& settings,
     const StopToken& stop) const {
@@ -93,7 +113,7 @@ absl::StatusOr<ResolvedQuery> ShapeSearch::Resolve(
 
 absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
                                        const ResolvedQuery& resolved,
-                                       const GallerySnapshot& gallery,
+                                       const SearchedShapes& searched,
                                        const StopToken& stop,
                                        SearchAnswer& answer) const {
   StageClock clock(answer.stats.stages);
@@ -103,7 +123,8 @@ absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
   const PackedSignature* const packed = signature ? &*signature : nullptr;
   ARGMESH_ASSIGN_OR_RETURN(
       Ranking ranking,
-      ranker_->Rank(gallery, RankQueryOf(query, graph, packed), stop));
+      ranker_->Rank(*searched.gallery,
+                    RankQueryOf(query, searched.slots, graph, packed), stop));
   clock.Lap("match");
   if (query.rerank && packed != nullptr) {
     ARGMESH_RETURN_IF_ERROR(RerankShapes(pool_, stop, ranking.shapes));
@@ -135,12 +156,12 @@ absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
 
 absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
                                         const ResolvedQuery& resolved,
-                                        const GallerySnapshot& gallery,
+                                        const SearchedShapes& searched,
                                         const StopToken& stop,
                                         SearchAnswer& answer) const {
   ARGMESH_ASSIGN_OR_RETURN(
       ContainmentAnswer found,
-      containment_.Rank(gallery,
+      containment_.Rank(*searched.gallery,
                         {.windows = *resolved.windows,
                          .sha256 = resolved.sha256,
                          .limit = query.limit,
@@ -148,7 +169,7 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
                          .exact = query.exact,
                          .min_score = query.min_score,
                          .min_query_coverage = query.min_query_coverage,
-                         .exclude_id = ExcludedId(query)},
+                         .slots = searched.slots},
                         stop));
   std::vector<StageTime>& stages = answer.stats.stages;
   stages.push_back({"candidates", found.candidate_time});
@@ -186,20 +207,20 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
                                                  const StopToken& stop) const {
   ARGMESH_RETURN_IF_ERROR(CheckSearchQuery(query));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  ARGMESH_ASSIGN_OR_RETURN(
-      const GallerySnapshotPtr gallery,
-      gallery_.Snapshot(query.collection, query.min_generation));
   SearchAnswer answer;
   StageClock clock(answer.stats.stages);
+  ARGMESH_ASSIGN_OR_RETURN(const SearchedShapes searched, Select(query, stop));
+  clock.Lap("filter");
+  const GallerySnapshot& gallery = *searched.gallery;
   ARGMESH_ASSIGN_OR_RETURN(ResolvedQuery resolved,
-                           Resolve(query, gallery->settings, stop));
+                           Resolve(query, gallery.settings, stop));
   clock.Lap("query");
-  answer.stats.generation = gallery->generation;
+  answer.stats.generation = gallery.generation;
   answer.stats.shapes_unusable =
-      gallery->damaged_shapes + gallery->outdated_shapes;
+      gallery.damaged_shapes + gallery.outdated_shapes;
   ARGMESH_RETURN_IF_ERROR(
-      resolved.windows ? SearchWindows(query, resolved, *gallery, stop, answer)
-                       : SearchGraphs(query, resolved, *gallery, stop, answer));
+      resolved.windows ? SearchWindows(query, resolved, searched, stop, answer)
+                       : SearchGraphs(query, resolved, searched, stop, answer));
   answer.stats.exhaustive &= answer.stats.shapes_unusable == 0;
   if (!query.correspondence) {
     for (SearchMatch& match : answer.matches) match.match.pairs.clear();

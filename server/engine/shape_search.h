@@ -15,6 +15,7 @@
 #include "server/engine/query_resolver.h"
 #include "server/engine/search_requests.h"
 #include "server/engine/shape_ranker.h"
+#include "server/engine/slot_selection.h"
 
 namespace argmesh {
 
@@ -32,16 +33,23 @@ class ShapeSearch {
                                          const StopToken& stop) const;
 
  private:
+  struct SearchedShapes {
+    GallerySnapshotPtr gallery;
+    SlotSelection slots;
+  };
+
+  absl::StatusOr<SearchedShapes> Select(const SearchQuery& query,
+                                        const StopToken& stop) const;
   absl::StatusOr<ResolvedQuery> Resolve(const SearchQuery& query,
                                         const CollectionSettings& settings,
                                         const StopToken& stop) const;
   absl::Status SearchGraphs(const SearchQuery& query,
                             const ResolvedQuery& resolved,
-                            const GallerySnapshot& gallery,
+                            const SearchedShapes& searched,
                             const StopToken& stop, SearchAnswer& answer) const;
   absl::Status SearchWindows(const SearchQuery& query,
                              const ResolvedQuery& resolved,
-                             const GallerySnapshot& gallery,
+                             const SearchedShapes& searched,
                              const StopToken& stop, SearchAnswer& answer) const;
 
   ComputePool& pool_;

@@ -78,11 +78,6 @@ absl::StatusOr<double> Share(std::string_view field, double value) {
 }
 
 absl::Status CheckServed(const v1::SearchShapesRequest& request) {
-  if (!request.filter().empty()) {
-    return MakeError(ErrorReason::kFilterInvalid,
-                     "filter: not served by this version; leave it empty",
-                     {{"field", "filter"}});
-  }
   if (!request.region_node_ids().empty() && !request.has_shape()) {
     return FieldInvalid("region_node_ids", "needs a stored shape as the query");
   }
@@ -150,6 +145,7 @@ absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
   ARGMESH_ASSIGN_OR_RETURN(
       query.min_query_coverage,
       Share("min_query_coverage", request.min_query_coverage()));
+  query.filter = request.filter();
   query.exclude_query = request.exclude_query();
   query.correspondence = !request.omit_component_pairs();
   query.query_graph = request.return_query_graph() || request.has_mesh();

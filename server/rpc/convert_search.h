@@ -10,7 +10,7 @@
 
 namespace argmesh {
 
-// FIELD_INVALID, FIELD_REQUIRED, FILTER_INVALID, NAME_INVALID, GRAPH_INVALID,
+// FIELD_INVALID, FIELD_REQUIRED, NAME_INVALID, GRAPH_INVALID,
 // GRAPH_VERSION_MISMATCH.
 absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request);
 

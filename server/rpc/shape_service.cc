@@ -23,16 +23,13 @@ absl::Status List(const Engine& engine, const v1::ListShapesRequest& request,
                   v1::ListShapesResponse* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::string collection,
                            ParseCollectionName("parent", request.parent()));
-  if (!request.filter().empty()) {
-    return MakeError(ErrorReason::kFilterInvalid,
-                     "filter: not served by this version; leave it empty",
-                     {{"field", "filter"}});
-  }
   ARGMESH_ASSIGN_OR_RETURN(
       const ShapePage page,
-      engine.ListShapes(collection, {.page_size = request.page_size(),
-                                     .page_token = request.page_token(),
-                                     .max_bytes = kMaxAnswerBytes}));
+      engine.ListShapes(collection,
+                        {.page_size = request.page_size(),
+                         .page_token = request.page_token(),
+                         .max_bytes = kMaxAnswerBytes},
+                        request.filter()));
   for (const ShapeRecord& record : page.shapes) {
     *response->add_shapes() = ToProto(record);
   }

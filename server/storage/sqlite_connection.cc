@@ -61,13 +61,26 @@ absl::StatusOr<sqlite3_stmt*> SqliteConnection::Prepare(std::string_view sql) {
   if (const auto it = statements_.find(sql); it != statements_.end()) {
     return it->second;
   }
-  sqlite3_stmt* statement = nullptr;
-  const int code =
-      sqlite3_prepare_v3(db_, sql.data(), static_cast<int>(sql.size()),
-                         SQLITE_PREPARE_PERSISTENT, &statement, nullptr);
-  if (code != SQLITE_OK) return SqliteError(db_, code, sql);
+  ARGMESH_ASSIGN_OR_RETURN(sqlite3_stmt * statement,
+                           Compile(sql, SQLITE_PREPARE_PERSISTENT));
   statements_.emplace(sql, statement);
   return statement;
+}
+
+absl::StatusOr<sqlite3_stmt*> SqliteConnection::Compile(std::string_view sql,
+                                                        unsigned flags) {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v3(db_, sql.data(), static_cast<int>(sql.size()), flags,
+                         &statement, nullptr);
+  if (code != SQLITE_OK) return SqliteError(db_, code, sql);
+  return statement;
+}
+
+absl::StatusOr<SqliteStatement> SqliteConnection::QueryOnce(
+    std::string_view sql) {
+  ARGMESH_ASSIGN_OR_RETURN(sqlite3_stmt * statement, Compile(sql, 0));
+  return SqliteStatement(db_, statement, SqliteStatement::AfterUse::kFinalize);
 }
 
 }  // namespace argmesh

@@ -50,6 +50,9 @@ class SqliteConnection {
     return statement;
   }
 
+  // A statement of a text that hardly comes again: not kept, nothing bound.
+  absl::StatusOr<SqliteStatement> QueryOnce(std::string_view sql);
+
   // Runs a statement to its end; how many rows it changed.
   template <typename... Values>
   absl::StatusOr<int64_t> Run(std::string_view sql, const Values&... values) {
@@ -78,6 +81,7 @@ class SqliteConnection {
  private:
   explicit SqliteConnection(sqlite3* db) : db_(db) {}
   absl::StatusOr<sqlite3_stmt*> Prepare(std::string_view sql);
+  absl::StatusOr<sqlite3_stmt*> Compile(std::string_view sql, unsigned flags);
 
   sqlite3* db_;
   std::map<std::string, sqlite3_stmt*, std::less<>> statements_;

@@ -4,8 +4,10 @@
 #include "core/base/crc32c.h"
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
+#include "server/engine/metadata_filter.h"
 #include "server/engine/record_codec.h"
 #include "server/storage/catalog_rows.h"
+#include "server/storage/filter_condition.h"
 #include "server/storage/label_compression.h"
 #include "server/storage/request_memory.h"
 #include "server/storage/sqlite_catalog.h"
@@ -155,20 +157,28 @@ absl::StatusOr<ShapeRecord> SqliteCatalog::GetShape(std::string_view collection,
 }
 
 absl::StatusOr<std::vector<ShapeRecord>> SqliteCatalog::ListShapes(
-    std::string_view collection, std::string_view after_id, int limit) const {
+    std::string_view collection, const ShapeSlice& slice) const {
   std::vector<ShapeRecord> records;
   ARGMESH_RETURN_IF_ERROR(
       readers_.Read([&](SqliteConnection& connection) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const CollectionRow found,
                                  FindCollectionRow(connection, collection));
         ARGMESH_ASSIGN_OR_RETURN(
+            const MetadataFilter filter,
+            MetadataFilter::Parse(slice.filter, found.record.metadata_keys));
+        const FilterCondition condition(filter);
+        ARGMESH_ASSIGN_OR_RETURN(
             SqliteStatement statement,
-            connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
-                             " FROM shape s JOIN collection c "
-                             "ON c.id = s.collection_id "
-                             "WHERE s.collection_id = ? AND s.name > ? "
-                             "ORDER BY s.name LIMIT ?",
-                             found.number, after_id, limit));
+            connection.QueryOnce("SELECT " ARGMESH_SHAPE_COLUMNS
+                                 " FROM shape s JOIN collection c "
+                                 "ON c.id = s.collection_id "
+                                 "WHERE s.collection_id = ? AND s.name > ? "
+                                 "AND " +
+                                 condition.sql() + " ORDER BY s.name LIMIT ?"));
+        statement.Bind(found.number);
+        statement.Bind(slice.after_id);
+        condition.Bind(found.number, statement);
+        statement.Bind(slice.limit);
         while (true) {
           ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
           if (!row) return absl::OkStatus();

@@ -50,11 +50,16 @@ SqliteBlob::SqliteBlob(const Sha256Digest& digest)
     : bytes(static_cast<const char*>(static_cast<const void*>(digest.data())),
             digest.size()) {}
 
-SqliteStatement::SqliteStatement(sqlite3* db, sqlite3_stmt* statement)
-    : db_(db), statement_(statement) {}
+SqliteStatement::SqliteStatement(sqlite3* db, sqlite3_stmt* statement,
+                                 AfterUse after_use)
+    : db_(db), statement_(statement), after_use_(after_use) {}
 
 SqliteStatement::~SqliteStatement() {
   if (statement_ == nullptr) return;
+  if (after_use_ == AfterUse::kFinalize) {
+    sqlite3_finalize(statement_);
+    return;
+  }
   sqlite3_reset(statement_);
   sqlite3_clear_bindings(statement_);
 }
@@ -62,6 +67,7 @@ SqliteStatement::~SqliteStatement() {
 SqliteStatement::SqliteStatement(SqliteStatement&& other) noexcept
     : db_(other.db_),
       statement_(std::exchange(other.statement_, nullptr)),
+      after_use_(other.after_use_),
       bound_(other.bound_),
       error_(other.error_) {}
 

@@ -33,8 +33,11 @@ struct SqliteBlob {
 
 class SqliteStatement {
  public:
-  // Borrows `statement`, which must outlive this object.
-  SqliteStatement(sqlite3* db, sqlite3_stmt* statement);
+  enum class AfterUse { kReset, kFinalize };
+
+  // Borrows `statement`, which must outlive this object; kFinalize: takes it.
+  SqliteStatement(sqlite3* db, sqlite3_stmt* statement,
+                  AfterUse after_use = AfterUse::kReset);
   ~SqliteStatement();
   SqliteStatement(SqliteStatement&& other) noexcept;
   SqliteStatement& operator=(SqliteStatement&&) = delete;
@@ -75,6 +78,7 @@ class SqliteStatement {
 
   sqlite3* db_;
   sqlite3_stmt* statement_;
+  AfterUse after_use_;
   int bound_ = 0;
   int error_ = SQLITE_OK;
 };

@@ -153,6 +153,33 @@ TEST_F(CommandLineTest, FindsAStoredShapeFirstByItsFile) {
   }
 }
 
+TEST_F(CommandLineTest, FiltersByDeclaredMetadata) {
+  const Words list = {"list",     "--collection",  "demo",
+                      "--filter", "class = table", "--json"};
+  const CommandOutcome undeclared = Run(list);
+  EXPECT_EQ(undeclared.exit_code, 1);
+  EXPECT_EQ(undeclared.Json()["error"]["reason"], "FILTER_KEY_UNDECLARED");
+  EXPECT_EQ(Run({"declare", "--collection", "demo", "class"}).exit_code, 2);
+  const CommandOutcome declared =
+      Run({"declare", "--collection", "demo", "class:string", "--json"});
+  ASSERT_EQ(declared.exit_code, 0) << declared.err;
+  EXPECT_EQ(declared.Json()["metadata_keys"]["class"], "string");
+  const OrderedJson tables = Run(list).Json();
+  ASSERT_EQ(tables["shapes"].size(), 2U);
+  for (const auto& shape : tables["shapes"]) EXPECT_EQ(shape["class"], "table");
+  const CommandOutcome search =
+      Run({"search", "--collection", "demo", "--filter",
+           "NOT (class = mug OR class = table)", "--json",
+           Path("meshes/mug/mug-01.off")});
+  ASSERT_EQ(search.exit_code, 0) << search.err;
+  EXPECT_EQ(search.Json()["matches"].size(), 4U);
+  const CommandOutcome evaluated =
+      Run({"evaluate", "--collection", "demo", "--filter",
+           "class = mug OR class = table", "--json"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  EXPECT_EQ(evaluated.Json()["queries"], 4);
+}
+
 TEST_F(CommandLineTest, LeavesAStoredQueryOutOfItsAnswer) {
   const std::string id = ShapesOf("mug").at(0);
   const Words search = {"search", "--collection", "demo", "--mode",

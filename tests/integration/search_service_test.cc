@@ -116,6 +116,32 @@ TEST_F(SearchServiceTest, FindsThePlaceOfAMovedCopy) {
   EXPECT_EQ(transform[15], 1);
 }
 
+TEST_F(SearchServiceTest, FindsOnlyShapesThatTheFilterHoldsFor) {
+  server_.DeclareKey("c", "mass", v1::METADATA_TYPE_NUMBER);
+  server_.AddShape("c", "light", TorusOff(), {{"mass", "1"}});
+  server_.AddShape("c", "heavy", DumbbellOff(), {{"mass", "9"}});
+  for (const auto mode : {v1::SEARCH_MODE_GLOBAL, v1::SEARCH_MODE_PARTIAL}) {
+    v1::SearchShapesRequest request = ByShape("dumbbell");
+    request.set_mode(mode);
+    request.set_limit(1);
+    request.set_filter("mass < 5");
+    v1::SearchShapesResponse response;
+    ASSERT_CALL_OK(Search(request, &response));
+    ASSERT_EQ(response.matches_size(), 1);
+    EXPECT_EQ(response.matches(0).shape().name(), "collections/c/shapes/light");
+    EXPECT_EQ(response.stats().shapes_considered(), 1);
+    EXPECT_TRUE(response.stats().exhaustive());
+    request.set_filter("mass:* AND NOT mass < 5");
+    ASSERT_CALL_OK(Search(request, &response));
+    ASSERT_EQ(response.matches_size(), 1);
+    EXPECT_EQ(response.matches(0).shape().name(), "collections/c/shapes/heavy");
+    request.set_filter("mass > 10");
+    ASSERT_CALL_OK(Search(request, &response));
+    EXPECT_EQ(response.matches_size(), 0);
+    EXPECT_EQ(response.stats().shapes_considered(), 0);
+  }
+}
+
 TEST_F(SearchServiceTest, CountsNoShapeThatIsLeftOut) {
   for (const auto mode : {v1::SEARCH_MODE_GLOBAL, v1::SEARCH_MODE_PARTIAL}) {
     v1::SearchShapesRequest request = ByShape("torus");
@@ -299,7 +325,8 @@ TEST_F(SearchServiceTest, RefusesRequestsItCannotAnswer) {
   add("coverage", kInvalid, "FIELD_INVALID").set_min_query_coverage(-0.1);
   add("mode", kInvalid, "FIELD_INVALID")
       .set_mode(static_cast<v1::SearchMode>(9));
-  add("filter", kInvalid, "FILTER_INVALID").set_filter("a = \"b\"");
+  add("filter", kInvalid, "FILTER_INVALID").set_filter("= 1");
+  add("key", kInvalid, "FILTER_KEY_UNDECLARED").set_filter("a = \"b\"");
   add("region", grpc::StatusCode::NOT_FOUND, "NODE_NOT_FOUND")
       .add_region_node_ids(99);
   v1::SearchShapesRequest& region_of_mesh =

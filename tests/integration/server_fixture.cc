@@ -115,9 +115,13 @@ void TestServer::MakeCollection(const std::string& id, bool store_meshes) {
   ASSERT_CALL_OK(collections().CreateCollection(&context, request, &response));
 }
 
-v1::Shape TestServer::AddShape(const std::string& collection,
-                               const std::string& id, const std::string& off) {
+v1::Shape TestServer::AddShape(
+    const std::string& collection, const std::string& id,
+    const std::string& off,
+    const std::map<std::string, std::string>& metadata) {
   v1::CreateShapeRequest request;
+  request.mutable_shape()->mutable_metadata()->insert(metadata.begin(),
+                                                      metadata.end());
   request.set_parent("collections/" + collection);
   request.set_shape_id(id);
   request.mutable_mesh()->set_format(v1::MESH_FORMAT_OFF);
@@ -128,6 +132,21 @@ v1::Shape TestServer::AddShape(const std::string& collection,
       shapes().CreateShape(&context, request, &response);
   EXPECT_TRUE(status.ok()) << ErrorOf(status);
   return response;
+}
+
+void TestServer::DeclareKey(const std::string& collection,
+                            const std::string& key, v1::MetadataType type) {
+  v1::UpdateCollectionRequest request;
+  request.mutable_collection()->set_name("collections/" + collection);
+  v1::MetadataKey& declared =
+      *request.mutable_collection()->add_metadata_keys();
+  declared.set_key(key);
+  declared.set_type(type);
+  grpc::ClientContext context;
+  v1::Collection response;
+  const grpc::Status status =
+      collections().UpdateCollection(&context, request, &response);
+  EXPECT_TRUE(status.ok()) << ErrorOf(status);
 }
 
 ErrorOf::ErrorOf(const grpc::Status& status) {

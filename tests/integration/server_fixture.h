@@ -67,7 +67,11 @@ class TestServer {
   void MakeCollection(const std::string& id, bool store_meshes = true);
   // Through CreateShape.
   v1::Shape AddShape(const std::string& collection, const std::string& id,
-                     const std::string& off);
+                     const std::string& off,
+                     const std::map<std::string, std::string>& metadata = {});
+  // The one metadata key of the collection.
+  void DeclareKey(const std::string& collection, const std::string& key,
+                  v1::MetadataType type);
 
  private:
   void OpenEngine();

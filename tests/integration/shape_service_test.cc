@@ -217,13 +217,42 @@ TEST_F(ShapeServiceTest, ListsEveryShapeOnceWhileOthersAreAdded) {
   EXPECT_TRUE(std::is_sorted(listed.begin(), listed.end()));
   EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected);
   EXPECT_EQ(listed.size(), expected.size());
+}
 
-  grpc::ClientContext context;
+TEST_F(ShapeServiceTest, ListsTheShapesThatAFilterHoldsForPageByPage) {
+  server_.DeclareKey("c", "class", v1::METADATA_TYPE_STRING);
+  for (const char* id : {"a", "b", "d", "e"}) {
+    server_.AddShape("c", id, TorusOff(), {{"class", "cup"}});
+  }
+  server_.AddShape("c", "c", TorusOff(), {{"class", "jug"}});
+  v1::ListShapesRequest request;
+  request.set_parent("collections/c");
+  request.set_filter("class = cup");
+  request.set_page_size(3);
   v1::ListShapesResponse response;
+  const auto list = [&] {
+    grpc::ClientContext context;
+    return server_.shapes().ListShapes(&context, request, &response);
+  };
+  ASSERT_CALL_OK(list());
+  ASSERT_EQ(response.shapes_size(), 3);
+  EXPECT_EQ(response.shapes(2).name(), "collections/c/shapes/d");
+  const std::string token = response.next_page_token();
+  request.set_page_token(token);
+  ASSERT_CALL_OK(list());
+  ASSERT_EQ(response.shapes_size(), 1);
+  EXPECT_EQ(response.shapes(0).name(), "collections/c/shapes/e");
+  EXPECT_EQ(response.next_page_token(), "");
+
+  for (const char* filter : {"", "class = jug", "class = cup "}) {
+    request.set_filter(filter);
+    EXPECT_FAILS(list(), INVALID_ARGUMENT, "PAGE_TOKEN_INVALID");
+  }
   request.clear_page_token();
-  request.set_filter("class = \"cup\"");
-  EXPECT_FAILS(server_.shapes().ListShapes(&context, request, &response),
-               INVALID_ARGUMENT, "FILTER_INVALID");
+  request.set_filter("class = ");
+  EXPECT_FAILS(list(), INVALID_ARGUMENT, "FILTER_INVALID");
+  request.set_filter("colour = red");
+  EXPECT_FAILS(list(), INVALID_ARGUMENT, "FILTER_KEY_UNDECLARED");
 }
 
 TEST_F(ShapeServiceTest, KeepsAPageTokenToItsCollection) {

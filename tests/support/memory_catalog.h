@@ -36,8 +36,7 @@ class MemoryCatalog : public Catalog {
   absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                        std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
-      std::string_view collection, std::string_view after_id,
-      int limit) const override;
+      std::string_view collection, const ShapeSlice& slice) const override;
   absl::StatusOr<StoredGraph> ReadGraph(std::string_view collection,
                                         std::string_view id,
                                         bool with_labels) const override;

@@ -1,6 +1,7 @@
 // The reads of shapes and graphs of MemoryCatalog.
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
+#include "server/engine/metadata_filter.h"
 #include "server/engine/record_codec.h"
 #include "tests/support/memory_catalog.h"
 
@@ -16,14 +17,19 @@ absl::StatusOr<ShapeRecord> MemoryCatalog::GetShape(std::string_view collection,
 }
 
 absl::StatusOr<std::vector<ShapeRecord>> MemoryCatalog::ListShapes(
-    std::string_view collection, std::string_view after_id, int limit) const {
+    std::string_view collection, const ShapeSlice& slice) const {
   const std::lock_guard lock(mutex_);
   ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const MetadataFilter filter,
+      MetadataFilter::Parse(slice.filter, found->record.metadata_keys));
   std::vector<ShapeRecord> records;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(records.size()) < limit;
+  for (auto it = found->shapes.upper_bound(slice.after_id);
+       it != found->shapes.end() &&
+       static_cast<int>(records.size()) < slice.limit;
        ++it) {
-    records.push_back(it->second.record);
+    const ShapeRecord& record = it->second.record;
+    if (filter.Matches(record.metadata)) records.push_back(record);
   }
   return records;
 }

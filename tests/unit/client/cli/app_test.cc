@@ -43,6 +43,7 @@ TEST(RunArgmesh, HelpsWithEveryCommand) {
       {"compare", "--help"},
       {"list", "--help"},
       {"get", "--help"},
+      {"declare", "--help"},
       {"delete", "--help"},
       {"graph", "--help"},
       {"evaluate", "--help"},

@@ -195,6 +195,24 @@ TEST(RankContainment, LeavesOutShapesThatWent) {
   }
 }
 
+TEST(RankContainment, RanksOnlyTheSlotsThatMayBeFound) {
+  const QueryWindows query = Query(CutAndMove(MeshOf("mug"), 2, 3).mesh);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking all, Rank(query));
+  ASSERT_EQ(all.matches.at(0).slot, Gallery().SlotOf("mug"));
+  std::vector<bool> slots(static_cast<size_t>(Gallery().index.size()), true);
+  slots[static_cast<size_t>(Gallery().SlotOf("mug"))] = false;
+  RankContainmentOptions options;
+  options.slots = &slots;
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking some, Rank(query, options));
+  EXPECT_EQ(some.loaded, all.loaded - 1);
+  for (const RankedContainment& ranked : some.matches) {
+    EXPECT_NE(ranked.slot, Gallery().SlotOf("mug"));
+  }
+  slots.clear();
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking none, Rank(query, options));
+  EXPECT_TRUE(none.matches.empty());
+}
+
 TEST(RankContainment, ReportsWhatCannotBeLoaded) {
   const LoadWindows load =
       [](int64_t) -> absl::StatusOr<std::shared_ptr<const TargetWindows>> {

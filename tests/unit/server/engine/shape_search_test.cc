@@ -92,6 +92,35 @@ TEST_F(ShapeSearchTest, KeepsToLimitScoreAndExclusion) {
   EXPECT_TRUE(bare.query_graph.has_value());
 }
 
+TEST_F(ShapeSearchTest, AnswersAsManyAsTheFilterHoldsForWhateverRanksFirst) {
+  CollectionPatch patch;
+  patch.id = "cups";
+  patch.metadata_keys = std::vector<MetadataKey>{{"n", MetadataType::kNumber}};
+  ASSERT_THAT(engine_->UpdateCollection(patch), IsOk());
+  for (int i = 0; i < 8; ++i) {
+    NewShape shape = Named("s" + std::to_string(i));
+    shape.metadata["n"] = std::to_string(i);
+    const std::string mesh = i < 5 ? DumbbellOff() : TorusOff(i);
+    ASSERT_THAT(engine_->AddShape(shape, mesh), IsOk());
+  }
+  for (const MatchMode mode : {MatchMode::kGlobal, MatchMode::kPartial}) {
+    SearchQuery query = SearchFor(ShapeRef{"cups", "s0"});
+    query.mode = mode;
+    query.candidates = 2;  // all of them dumbbells, were it not for the filter
+    query.limit = 2;
+    query.filter = "n >= 4";
+    ASSERT_OK_AND_ASSIGN(const SearchAnswer answer, engine_->Search(query));
+    ASSERT_EQ(answer.matches.size(), 2U);
+    EXPECT_EQ(answer.matches[0].shape.id, "s4");
+    EXPECT_GE(answer.matches[1].shape.id, "s5");
+    EXPECT_EQ(answer.stats.shapes_considered, 4);
+    query.filter = "n < 2";
+    query.exclude_query = true;
+    ASSERT_OK_AND_ASSIGN(const SearchAnswer rest, engine_->Search(query));
+    EXPECT_THAT(IdsOf(rest), ElementsAre("s1"));
+  }
+}
+
 TEST_F(ShapeSearchTest, BreaksTiesById) {
   for (const char* id : {"c", "a", "b"}) {
     ASSERT_THAT(engine_->AddShape(Named(id), TorusOff(3)), IsOk());

@@ -22,6 +22,7 @@
 #include "server/storage/sqlite_catalog.h"
 #include "tests/support/catalog_samples.h"
 #include "tests/support/memory_catalog.h"
+#include "tests/support/random_filter.h"
 #include "tests/support/temporary_directory.h"
 
 namespace argmesh {
@@ -241,7 +242,9 @@ class Operations {
     const std::string id = ShapeId();
     const auto record = model.GetCollection(collection);
     const std::string uid = record.ok() ? record->uid : "nobody";
-    const int limit = static_cast<int>(1 + random_.Below(6));
+    ShapeSlice slice{id, static_cast<int>(1 + random_.Below(6)), ""};
+    const std::vector<MetadataKey> keys = RandomKeys(random_);
+    if (!keys.empty()) slice.filter = MakeRandomFilter(random_, keys).text;
     const Sha256Digest mesh =
         ComputeSha256(absl::StrCat("mesh ", random_.Below(kMeshes)));
     return [=](Catalog& catalog) {
@@ -253,7 +256,7 @@ class Operations {
                    });
       text += Text(catalog.ReadWindows(uid, id),
                    [](const std::string& windows) { return windows; });
-      text += Text(catalog.ListShapes(collection, id, limit),
+      text += Text(catalog.ListShapes(collection, slice),
                    [](const std::vector<ShapeRecord>& shapes) {
                      std::string all;
                      for (const auto& s : shapes)

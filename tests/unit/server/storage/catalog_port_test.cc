@@ -93,9 +93,9 @@ TEST_P(CatalogPortTest, RefusesATypeThatAStoredValueHasNot) {
   ShapePut put = SamplePut(cups, "red", 1);
   put.record.metadata = {{"mass", "heavy"}};
   ASSERT_THAT(catalog_->PutShape(put), IsOk());
-  CollectionPatch patch{
-      .id = "cups",
-      .metadata_keys = std::vector<MetadataKey>{{"mass", MetadataType::kBool}}};
+  CollectionPatch patch;
+  patch.id = "cups";
+  patch.metadata_keys = std::vector<MetadataKey>{{"mass", MetadataType::kBool}};
   const auto refused = catalog_->UpdateCollection(patch);
   EXPECT_EQ(ReasonOrOk(refused), ErrorReason::kFieldInvalid);
   EXPECT_EQ(MetadataOf(refused.status()).at("shape"), "red");
@@ -115,6 +115,7 @@ TEST_P(CatalogPortTest, UpdatesACollectionOnlyUnderItsEtag) {
       catalog_->InsertCollection(SampleCollection("cups"), {}));
   CollectionPatch patch{.id = "cups",
                         .display_name = "Mugs",
+                        .metadata_keys = std::nullopt,
                         .etag = CollectionEtag(cups),
                         .update_time = cups.update_time + absl::Seconds(1)};
   ASSERT_OK_AND_ASSIGN(const CollectionRecord updated,
@@ -188,7 +189,7 @@ TEST_P(CatalogPortTest, NamesWhatIsMissing) {
             ErrorReason::kCollectionNotFound);
   EXPECT_EQ(ReasonOrOk(catalog_->ReadGraph("cups", "red", true)),
             ErrorReason::kShapeNotFound);
-  EXPECT_EQ(ReasonOrOk(catalog_->ListShapes("jugs", "", 1)),
+  EXPECT_EQ(ReasonOrOk(catalog_->ListShapes("jugs", {"", 1, ""})),
             ErrorReason::kCollectionNotFound);
   EXPECT_EQ(ReasonOrOk(catalog_->FindGraph(cups.uid, "red")),
             ErrorReason::kShapeNotFound);
@@ -370,16 +371,16 @@ TEST_P(CatalogPortTest, ListsEveryShapeThatStaysExactlyOnceUnderInserts) {
     ASSERT_THAT(catalog_->PutShape(SamplePut(cups, id, 1)), IsOk());
   }
   ASSERT_OK_AND_ASSIGN(const std::vector<ShapeRecord> first,
-                       catalog_->ListShapes("cups", "", 2));
+                       catalog_->ListShapes("cups", {"", 2, ""}));
   EXPECT_THAT(IdsOf(first), ElementsAre("b", "d"));
   for (const char* id : {"a", "c", "e"}) {
     ASSERT_THAT(catalog_->PutShape(SamplePut(cups, id, 1)), IsOk());
   }
   ASSERT_OK_AND_ASSIGN(const std::vector<ShapeRecord> second,
-                       catalog_->ListShapes("cups", "d", 2));
+                       catalog_->ListShapes("cups", {"d", 2, ""}));
   EXPECT_THAT(IdsOf(second), ElementsAre("e", "f"));
   ASSERT_OK_AND_ASSIGN(const std::vector<ShapeRecord> third,
-                       catalog_->ListShapes("cups", "f", 2));
+                       catalog_->ListShapes("cups", {"f", 2, ""}));
   EXPECT_THAT(IdsOf(third), ElementsAre("h"));
 }
 

@@ -195,7 +195,7 @@ TEST_F(SqliteCatalogTest, OpensACopyOfItsFolderTakenWhileItWrites) {
   data_ = copy;
   Open();
   ASSERT_OK_AND_ASSIGN(const std::vector<ShapeRecord> shapes,
-                       catalog_->ListShapes("cups", "", 1'000'000));
+                       catalog_->ListShapes("cups", {"", 1'000'000, ""}));
   EXPECT_GE(static_cast<int>(shapes.size()), before);
   ASSERT_OK_AND_ASSIGN(const CollectionRecord cups,
                        catalog_->GetCollection("cups"));

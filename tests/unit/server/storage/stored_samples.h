@@ -77,7 +77,7 @@ class StoredSamples {
     const auto collections = catalog_->ListCollections("", 100);
     if (!collections.ok()) return {collections.status().ToString()};
     for (const CollectionRecord& collection : *collections) {
-      const auto shapes = catalog_->ListShapes(collection.id, "", 100);
+      const auto shapes = catalog_->ListShapes(collection.id, {"", 100, ""});
       if (!shapes.ok()) return {shapes.status().ToString()};
       for (const ShapeRecord& shape : *shapes) {
         auto reader = meshes_->Open(shape.sha256);
