@@ -16,6 +16,7 @@ macro(allow folder)
 endmacro()
 
 allow(core/base core/base)
+allow(core/access core/base core/access)
 allow(core/mesh core/base core/mesh)
 allow(core/geometry core/base core/mesh core/geometry)
 allow(core/abstraction core/base core/mesh core/geometry core/abstraction)
@@ -25,18 +26,16 @@ allow(core/signature core/base core/mesh core/geometry core/signature)
 allow(core/containment core/base core/mesh core/geometry core/containment)
 allow(core/evaluation core/base core/evaluation)
 allow(core/synthesis core/base core/mesh core/synthesis)
-allow(access core/base access)
 allow(server/engine core/base core/mesh core/abstraction core/graph
       core/matching core/signature core/containment server/engine)
 allow(server/storage core/base server/engine server/storage)
 allow(server/telemetry core/base server/engine server/telemetry)
-allow(server/rpc proto access core/base core/mesh core/abstraction core/graph
+allow(server/rpc proto core/base core/access core/mesh core/abstraction core/graph
       core/matching server/engine server/telemetry server/rpc)
 allow(client/picture core/base core/mesh client/picture)
-allow(client/cli core/base core/mesh core/evaluation core/synthesis proto access
-      client
-      client/picture client/cli)
-allow(server proto access core/base server server/engine server/storage
+allow(client/cli core/base core/mesh core/evaluation core/access core/synthesis
+      proto client client/picture client/cli)
+allow(server proto core/base core/access server server/engine server/storage
       server/telemetry server/rpc)
 allow(client proto core/base client)
 
@@ -53,7 +52,7 @@ set(only_patterns
     "asio=server/engine|server/rpc|server/main.cc")
 
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.h ${ROOT}/core/*.cc
-     ${ROOT}/access/*.h ${ROOT}/access/*.cc     ${ROOT}/server/*.h ${ROOT}/server/*.cc ${ROOT}/client/*.h
+     ${ROOT}/server/*.h ${ROOT}/server/*.cc ${ROOT}/client/*.h
      ${ROOT}/client/*.cc)
 list(LENGTH sources source_count)
 if(source_count EQUAL 0)
@@ -69,7 +68,7 @@ foreach(source IN LISTS sources)
   file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS includes)
     string(REGEX REPLACE ".*[<\"]([^>\"]+)[>\"].*" "\\1" header "${line}")
-    if(header MATCHES "^(core|access|server|client|proto|argmesh|google)/")
+    if(header MATCHES "^(core|server|client|proto|argmesh|google)/")
       get_filename_component(target ${header} DIRECTORY)
       if(header MATCHES "([.]pb[.]h$|^google/protobuf/)")
         set(target proto)
@@ -82,7 +81,7 @@ foreach(source IN LISTS sources)
       string(REGEX REPLACE "=.*" "" pattern "${entry}")
       string(REGEX REPLACE "^[^=]*=" "" places "${entry}")
       if(header MATCHES "^${pattern}|/${pattern}|${pattern}$"
-         AND NOT header MATCHES "^(core|access|server|client)/"
+         AND NOT header MATCHES "^(core|server|client)/"
          AND NOT source MATCHES "^(${places})")
         list(APPEND violations "${source}: ${header} belongs to ${places} only")
       endif()

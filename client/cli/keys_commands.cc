@@ -7,7 +7,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/time/clock.h"
-#include "access/key_file.h"
+#include "core/access/key_file.h"
 #include "client/cli/command_set.h"
 #include "client/cli/text_table.h"
 #include "core/base/identifier.h"

@@ -20,7 +20,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
-#include "access/key_file.h"
+#include "core/access/key_file.h"
 #include "server/rpc/access_rules.h"
 
 namespace argmesh {

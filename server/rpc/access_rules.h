@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "access/api_key.h"
+#include "core/access/api_key.h"
 
 namespace argmesh {
 

@@ -7,8 +7,8 @@
 //              "expire_time": "2027-01-31T00:00:00+00:00"}]}
 //
 // `collections` may be missing (all of them), `expire_time` too (never).
-#ifndef ARGMESH_ACCESS_KEY_FILE_H_
-#define ARGMESH_ACCESS_KEY_FILE_H_
+#ifndef ARGMESH_CORE_ACCESS_KEY_FILE_H_
+#define ARGMESH_CORE_ACCESS_KEY_FILE_H_
 
 #include <map>
 #include <string>
@@ -16,7 +16,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "access/api_key.h"
+#include "core/access/api_key.h"
 
 namespace argmesh {
 
@@ -41,4 +41,4 @@ absl::Status WriteKeyFile(const std::string& path, const KeyRing& keys);
 
 }  // namespace argmesh
 
-#endif  // ARGMESH_ACCESS_KEY_FILE_H_
+#endif  // ARGMESH_CORE_ACCESS_KEY_FILE_H_

@@ -1,4 +1,4 @@
-#include "access/key_file.h"
+#include "core/access/key_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

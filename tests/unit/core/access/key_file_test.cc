@@ -1,4 +1,4 @@
-#include "access/key_file.h"
+#include "core/access/key_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

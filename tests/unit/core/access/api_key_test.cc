@@ -1,4 +1,4 @@
-#include "access/api_key.h"
+#include "core/access/api_key.h"
 
 #include <gtest/gtest.h>
 

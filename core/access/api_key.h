@@ -3,8 +3,8 @@
 // A key's text is ID.SECRET; SECRET is 256 random bits. Only the SHA-256 of the
 // secret is kept: enough for a secret that cannot be guessed, and of no use to
 // whoever reads it.
-#ifndef ARGMESH_ACCESS_API_KEY_H_
-#define ARGMESH_ACCESS_API_KEY_H_
+#ifndef ARGMESH_CORE_ACCESS_API_KEY_H_
+#define ARGMESH_CORE_ACCESS_API_KEY_H_
 
 #include <string>
 #include <string_view>
@@ -55,4 +55,4 @@ bool SameSecret(const Sha256Digest& a, const Sha256Digest& b);
 
 }  // namespace argmesh
 
-#endif  // ARGMESH_ACCESS_API_KEY_H_
+#endif  // ARGMESH_CORE_ACCESS_API_KEY_H_
