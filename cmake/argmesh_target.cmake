@@ -1,6 +1,8 @@
 # argmesh_library(NAME SOURCES a.cc b.cc DEPS x y [PRIVATE_DEPS z])
 # argmesh_executable(NAME SOURCES ... DEPS ...)
-# argmesh_test(NAME LABEL unit SOURCES ... DEPS ...)
+# argmesh_test(NAME LABEL unit SOURCES ... DEPS ...): below a folder that sets
+#   ARGMESH_TEST_GROUP, the group is a second label, and the target GROUP_tests
+#   builds its tests.
 # argmesh_embed(NAME DATA FILE): links the bytes of FILE into the library
 #   NAME, between the symbols argmesh_DATA_begin and argmesh_DATA_end.
 #
@@ -65,7 +67,16 @@ function(argmesh_test name)
     set(ARG_TIMEOUT 300)
   endif()
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${name})
+  set(labels ${ARG_LABEL} ${ARGMESH_TEST_GROUP})
   set_tests_properties(
-    ${ARG_LABEL}.${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
-                                    SKIP_RETURN_CODE 77)
+    ${ARG_LABEL}.${name}
+    PROPERTIES LABELS "${labels}"
+               TIMEOUT ${ARG_TIMEOUT}
+               SKIP_RETURN_CODE 77)
+  if(ARGMESH_TEST_GROUP)
+    if(NOT TARGET ${ARGMESH_TEST_GROUP}_tests)
+      add_custom_target(${ARGMESH_TEST_GROUP}_tests)
+    endif()
+    add_dependencies(${ARGMESH_TEST_GROUP}_tests ${name})
+  endif()
 endfunction()
