@@ -40,9 +40,9 @@ off_as_obj a.off >query.obj
 off_as_obj piece.off >piece.obj
 
 # The server ends with the commands, and takes a port that is free.
-sed -i '1i trap "kill -TERM \$(jobs -p); wait" EXIT' "$commands"
 port_file=$folder/address
 sed -i "s|^\(build/release/bin/argmeshd .*\) --listen [^ ]* &|\1 --listen 127.0.0.1:0 --port-file $port_file \&\nuntil [ -s $port_file ]; do sleep 0.1; done|
         s|127.0.0.1:7411|\$(cat $port_file)|" "$commands"
-HOME=$folder/home bash -euxo pipefail "$commands"
+HOME=$folder/home bash -euxo pipefail -c \
+  'trap "kill -TERM \$!; wait \$!" EXIT; . "$1"' - "$commands"
 [[ -s match.png ]] || { echo "no picture was written" >&2; exit 1; }
