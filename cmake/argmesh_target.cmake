@@ -1,4 +1,5 @@
 # argmesh_library(NAME SOURCES a.cc b.cc DEPS x y [PRIVATE_DEPS z])
+# argmesh_install_libraries(NAMES...)
 # argmesh_executable(NAME SOURCES ... DEPS ...)
 # argmesh_test(NAME LABEL unit SOURCES ... DEPS ...): below a folder that sets
 #   ARGMESH_TEST_GROUP, the group is a second label, and the target GROUP_tests
@@ -14,7 +15,9 @@ set(ARGMESH_SANITIZE "" CACHE STRING
 option(ARGMESH_WERROR "Treat warnings as errors" OFF)
 
 function(argmesh_target_defaults target)
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(
+    ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                     $<INSTALL_INTERFACE:include/argmesh>)
   target_compile_options(
     ${target}
     PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
@@ -39,6 +42,14 @@ function(argmesh_library name)
     argmesh_${name}
     PUBLIC ${ARG_DEPS}
     PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# Everything named here goes into the package that find_package(argmesh) finds.
+function(argmesh_install_libraries)
+  foreach(name IN LISTS ARGN)
+    set_target_properties(argmesh_${name} PROPERTIES EXPORT_NAME ${name})
+    install(TARGETS argmesh_${name} EXPORT argmeshTargets)
+  endforeach()
 endfunction()
 
 function(argmesh_embed library name file)
