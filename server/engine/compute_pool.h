@@ -1,7 +1,8 @@
 // The threads that blocking work runs on, and who is let in.
 //
-// Three bounded classes, so that none starves another: searches, computation
-// (ingest, query meshes), and short blocking calls (reads, upload chunks).
+// Three bounded classes, so that none starves another: searches with all they
+// need (also the graph of a query mesh), the computation of what is stored, and
+// short blocking calls (reads, upload chunks).
 // Threads of kCompute run at a lower priority than the others.
 //
 // Work that cannot start within min(a quarter of the time to its deadline,

@@ -47,14 +47,13 @@ grpc::ServerUnaryReactor* SearchServiceImpl::SearchShapes(
     grpc::CallbackServerContext* context,
     const v1::SearchShapesRequest* request,
     v1::SearchShapesResponse* response) {
-  const WorkClass work_class =
-      request->has_mesh() ? WorkClass::kCompute : WorkClass::kSearch;
-  return UnaryReactor::Start(
-      environment_, context, request,
-      {"SearchService.SearchShapes", work_class, &environment_.searches},
-      [this, request, response](const UnaryCall& call) {
-        return Search(environment_.engine, *request, call.stop, response);
-      });
+  return UnaryReactor::Start(environment_, context, request,
+                             {"SearchService.SearchShapes", WorkClass::kSearch,
+                              &environment_.searches},
+                             [this, request, response](const UnaryCall& call) {
+                               return Search(environment_.engine, *request,
+                                             call.stop, response);
+                             });
 }
 
 grpc::ServerBidiReactor<v1::StreamSearchShapesRequest,
@@ -78,16 +77,13 @@ grpc::ServerUnaryReactor* SearchServiceImpl::CompareShapes(
     grpc::CallbackServerContext* context,
     const v1::CompareShapesRequest* request,
     v1::CompareShapesResponse* response) {
-  const bool has_mesh =
-      request->query().has_mesh() || request->target().has_mesh();
-  return UnaryReactor::Start(
-      environment_, context, request,
-      {"SearchService.CompareShapes",
-       has_mesh ? WorkClass::kCompute : WorkClass::kSearch,
-       &environment_.searches},
-      [this, request, response](const UnaryCall& call) {
-        return Compare(environment_.engine, *request, call.stop, response);
-      });
+  return UnaryReactor::Start(environment_, context, request,
+                             {"SearchService.CompareShapes", WorkClass::kSearch,
+                              &environment_.searches},
+                             [this, request, response](const UnaryCall& call) {
+                               return Compare(environment_.engine, *request,
+                                              call.stop, response);
+                             });
 }
 
 }  // namespace argmesh
