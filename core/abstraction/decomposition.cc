@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "absl/strings/str_format.h"
@@ -16,47 +17,43 @@ namespace {
 
 constexpr int kMaxComponents = 1000;
 
-absl::Status CheckRange(const char* name, double value, double low,
-                        double high) {
-  if (value >= low && value <= high) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrFormat("decomposition option %s is %g, must be %g to %g", name,
-                      value, low, high));
+struct OptionRange {
+  const char* name;
+  double value, low, high;
+};
+
+absl::Status CheckRanges(std::initializer_list<OptionRange> options) {
+  for (const OptionRange& o : options) {
+    if (o.value >= o.low && o.value <= o.high) continue;
+    return absl::InvalidArgumentError(
+        absl::StrFormat("decomposition option %s is %g, must be %g to %g",
+                        o.name, o.value, o.low, o.high));
+  }
+  return absl::OkStatus();
 }
 
 absl::Status CheckBiharmonic(const BiharmonicOptions& o) {
-  ARGMESH_RETURN_IF_ERROR(CheckRange("eigenvectors", o.eigenvectors, 1, 100));
-  ARGMESH_RETURN_IF_ERROR(CheckRange("min_window", o.min_window, 1e-4, 10));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("max_window", o.max_window, o.min_window, 10));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("window_growth", o.window_growth, 1.01, 10));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("concavity_width", o.concavity_width, 1e-3, 100));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("thickness_width", o.thickness_width, 1e-3, 100));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("min_conductance", o.min_conductance, 1e-6, 1));
-  return CheckRange("super_samples", o.super_samples, 10, 100'000);
+  return CheckRanges(
+      {{"eigenvectors", static_cast<double>(o.eigenvectors), 1, 100},
+       {"min_window", o.min_window, 1e-4, 10},
+       {"max_window", o.max_window, o.min_window, 10},
+       {"window_growth", o.window_growth, 1.01, 10},
+       {"concavity_width", o.concavity_width, 1e-3, 100},
+       {"thickness_width", o.thickness_width, 1e-3, 100},
+       {"min_conductance", o.min_conductance, 1e-6, 1},
+       {"super_samples", static_cast<double>(o.super_samples), 10, 100'000}});
 }
 
-absl::Status CheckOptions(const DecompositionOptions& o) {
-  ARGMESH_RETURN_IF_ERROR(CheckBiharmonic(o.biharmonic));
-  const NormalCurvatureOptions& n = o.normal_curvature;
-  ARGMESH_RETURN_IF_ERROR(CheckRange("min_window", n.min_window, 1e-3, 1));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("max_window", n.max_window, n.min_window, 1));
-  ARGMESH_RETURN_IF_ERROR(CheckRange("window_step", n.window_step, 1e-3, 1));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("range_bandwidth", n.range_bandwidth, 1e-3, 100));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("mode_distance_scale", n.mode_distance_scale, 1e-3, 100));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("voronoi_cells", o.voronoi_cells, 2, kMaxComponents));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("min_region_area", o.min_region_area, 0, 0.5));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckRange("max_regions", o.max_regions, 1, kMaxComponents));
+absl::Status CheckNormalCurvature(const NormalCurvatureOptions& o) {
+  return CheckRanges(
+      {{"min_window", o.min_window, 1e-3, 1},
+       {"max_window", o.max_window, o.min_window, 1},
+       {"window_step", o.window_step, 1e-3, 1},
+       {"range_bandwidth", o.range_bandwidth, 1e-3, 100},
+       {"mode_distance_scale", o.mode_distance_scale, 1e-3, 100}});
+}
+
+absl::Status CheckLevels(const DecompositionOptions& o) {
   if (!std::is_sorted(o.level_thresholds.begin(), o.level_thresholds.end()) ||
       !std::is_sorted(o.level_counts.begin(), o.level_counts.end())) {
     return absl::InvalidArgumentError(
@@ -66,10 +63,22 @@ absl::Status CheckOptions(const DecompositionOptions& o) {
     return absl::InvalidArgumentError("decomposition options name no level");
   }
   for (const int count : o.level_counts) {
-    ARGMESH_RETURN_IF_ERROR(
-        CheckRange("level_counts", count, 1, kMaxComponents));
+    ARGMESH_RETURN_IF_ERROR(CheckRanges(
+        {{"level_counts", static_cast<double>(count), 1, kMaxComponents}}));
   }
   return absl::OkStatus();
+}
+
+absl::Status CheckOptions(const DecompositionOptions& o) {
+  ARGMESH_RETURN_IF_ERROR(CheckBiharmonic(o.biharmonic));
+  ARGMESH_RETURN_IF_ERROR(CheckNormalCurvature(o.normal_curvature));
+  ARGMESH_RETURN_IF_ERROR(
+      CheckRanges({{"voronoi_cells", static_cast<double>(o.voronoi_cells), 2,
+                    kMaxComponents},
+                   {"min_region_area", o.min_region_area, 0, 0.5},
+                   {"max_regions", static_cast<double>(o.max_regions), 1,
+                    kMaxComponents}}));
+  return CheckLevels(o);
 }
 
 // Equation 3: w = exp(-d / sigma), d the mean Euclidean distance between the

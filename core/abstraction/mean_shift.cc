@@ -220,11 +220,11 @@ absl::StatusOr<MeanShiftResult> RunMeanShift(const Eigen::MatrixXf& points,
   }
   WindowLadder ladder(shifter, std::move(centers), result);
   constexpr double kRounding = 1.001;  // the last rung may be w_MAX itself
-  for (double window = options.min_window * options.window_growth;
-       window <= options.max_window * kRounding;
-       window *= options.window_growth) {
+  double window = options.min_window * options.window_growth;
+  while (window <= options.max_window * kRounding) {
     ladder.Climb(static_cast<float>(window));
     ARGMESH_RETURN_IF_ERROR(stop.Check());
+    window *= options.window_growth;
   }
   return result;
 }

@@ -171,8 +171,8 @@ Mode ModeSeeker::Grow(int32_t sample, std::vector<double>& windows) {
   double stable = options_.min_window;
   Mode mode;
   mode.sample = sample;
-  for (double w = options_.min_window + options_.window_step;
-       w <= options_.max_window + kRounding; w += options_.window_step) {
+  double w = options_.min_window + options_.window_step;
+  while (w <= options_.max_window + kRounding) {
     const WindowState grown = Measure(sample, w);
     if (grown.share < options_.min_density ||
         grown.offset > options_.max_offset) {
@@ -181,6 +181,7 @@ Mode ModeSeeker::Grow(int32_t sample, std::vector<double>& windows) {
     state = grown;
     stable = w;
     ++mode.repeatability;
+    w += options_.window_step;
   }
   mode.window = static_cast<float>(stable);
   mode.density = static_cast<float>(state.share);
