@@ -7,9 +7,9 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/time/clock.h"
-#include "core/access/key_file.h"
 #include "client/cli/command_set.h"
 #include "client/cli/text_table.h"
+#include "core/access/key_file.h"
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
 
