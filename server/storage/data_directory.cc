@@ -88,7 +88,6 @@ absl::StatusOr<std::shared_ptr<DataDirectory>> DataDirectory::Open(
   std::shared_ptr<DataDirectory> directory(
       new DataDirectory(absolute, options, std::move(lock)));
   ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
-  ARGMESH_RETURN_IF_ERROR(FinishRestore(absolute));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->blobs_path()));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->incoming_path()));
   ARGMESH_RETURN_IF_ERROR(MakeDirectory(directory->snapshots_path()));

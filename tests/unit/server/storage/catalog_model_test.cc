@@ -4,7 +4,6 @@
 // ARGMESH_MODEL_OPERATIONS operations, 1,500 when not set; from
 // ARGMESH_MODEL_SEED, 1 when not set.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -20,7 +19,9 @@
 #include "server/engine/record_codec.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_catalog.h"
+#include "tests/support/catalog_dump.h"
 #include "tests/support/catalog_samples.h"
+#include "tests/support/environment_number.h"
 #include "tests/support/memory_catalog.h"
 #include "tests/support/random_filter.h"
 #include "tests/support/temporary_directory.h"
@@ -33,11 +34,6 @@ constexpr uint64_t kShapes = 12;  // ids of each collection
 constexpr uint64_t kMeshes = 30;
 constexpr double kRestart = 0.004;
 constexpr double kCompare = 0.02;
-
-uint64_t NumberOf(const char* variable, uint64_t otherwise) {
-  const char* text = getenv(variable);
-  return text == nullptr ? otherwise : strtoull(text, nullptr, 10);
-}
 
 // Payloads have no order: the reason alone.
 std::string Text(const absl::Status& status) {
@@ -272,35 +268,6 @@ class Operations {
   Random random_;
 };
 
-// Everything in a catalog.
-std::string Dump(Catalog& catalog) {
-  std::string text;
-  const auto collections = catalog.ListCollections("", 1000);
-  if (!collections.ok()) return Text(collections.status());
-  for (const CollectionRecord& collection : *collections) {
-    text += SerializeCollectionRecord(collection);
-    text += Text(catalog.ScanGraphs(collection.uid, "", 1000),
-                 [](const std::vector<ScannedGraph>& graphs) {
-                   std::string all;
-                   for (const ScannedGraph& g : graphs) {
-                     all += SerializeShapeRecord(g.record) + g.graph +
-                            g.signature + g.window_words + Text(g.status);
-                   }
-                   return all;
-                 });
-    text += Text(catalog.ReadChanges(collection.uid, 0, 100'000),
-                 [](const std::vector<ShapeChange>& changes) {
-                   std::string all;
-                   for (const ShapeChange& c : changes) {
-                     absl::StrAppend(&all, c.generation, c.id,
-                                     static_cast<int>(c.kind));
-                   }
-                   return all;
-                 });
-  }
-  return text;
-}
-
 class CatalogModelTest : public ::testing::Test {
  protected:
   void Open() {
@@ -319,8 +286,8 @@ class CatalogModelTest : public ::testing::Test {
 };
 
 TEST_F(CatalogModelTest, AnswersAsItsTwinInMemoryDoes) {
-  const uint64_t seed = NumberOf("ARGMESH_MODEL_SEED", 1);
-  const uint64_t count = NumberOf("ARGMESH_MODEL_OPERATIONS", 1500);
+  const uint64_t seed = EnvironmentNumber("ARGMESH_MODEL_SEED", 1);
+  const uint64_t count = EnvironmentNumber("ARGMESH_MODEL_OPERATIONS", 1500);
   std::printf("seed %s, %s operations\n", absl::StrCat(seed).c_str(),
               absl::StrCat(count).c_str());
   Operations operations(seed);
@@ -338,11 +305,11 @@ TEST_F(CatalogModelTest, AnswersAsItsTwinInMemoryDoes) {
       ASSERT_NO_FATAL_FAILURE(Open());
     }
     if (chance < kCompare) {
-      ASSERT_TRUE(Dump(*catalog_) == Dump(model_))
+      ASSERT_TRUE(DumpCatalog(*catalog_) == DumpCatalog(model_))
           << "seed " << seed << ", after operation " << i;
     }
   }
-  EXPECT_TRUE(Dump(*catalog_) == Dump(model_)) << "seed " << seed;
+  EXPECT_TRUE(DumpCatalog(*catalog_) == DumpCatalog(model_)) << "seed " << seed;
 }
 
 }  // namespace
