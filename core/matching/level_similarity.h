@@ -1,5 +1,11 @@
-// How alike the nodes of two levels are, and the score of their best
-// assignment.
+// How alike the nodes of two levels are, and what the levels score.
+//
+// One-to-one  the best assignment of nodes. Knows how many of a part there
+//             are; but where one shape's part came apart and the other's did
+//             not, all pieces but one stay without a partner.
+// Nearest     each node with the most similar of the other level, however
+//             often that is taken. Does not mind pieces, but does not count.
+// A level's score is the mean of both.
 #ifndef ARGMESH_CORE_MATCHING_LEVEL_SIMILARITY_H_
 #define ARGMESH_CORE_MATCHING_LEVEL_SIMILARITY_H_
 
@@ -12,7 +18,7 @@ namespace argmesh {
 // The distance at which the similarity of two nodes falls to 1/e.
 inline constexpr float kSimilarityScale = 0.4F;
 
-// A matched pair's part of the score depends by this share on its edges: on
+// An assigned pair's part of the score depends by this share on its edges: on
 // exp(-|difference of geodesic distances| / kEdgeScale) to the other pairs.
 inline constexpr double kEdgeShare = 0.2;
 inline constexpr float kEdgeScale = 0.15F;  // sqrt(area of the shape)
@@ -22,9 +28,8 @@ inline constexpr float kEdgeScale = 0.15F;  // sqrt(area of the shape)
 std::vector<float> NodeSimilarities(const PackedLevel& a, const PackedLevel& b,
                                     RowKind kind);
 
-// The sum of the similarities of the best one-to-one assignment, weighted with
-// the mean of both nodes' weights. 0 .. 1, 1 for equal levels; symmetric to
-// the bit. Both levels have a node.
+// The mean of the two measures above, each weighted with the nodes' weights.
+// 0 .. 1, 1 for equal levels; symmetric to the bit. Both levels have a node.
 double ScoreLevels(const PackedLevel& a, const PackedLevel& b, RowKind kind);
 
 }  // namespace argmesh

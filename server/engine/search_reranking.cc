@@ -15,8 +15,7 @@ namespace argmesh {
 namespace {
 
 double PairScore(const GalleryEntry& a, const GalleryEntry& b) {
-  const MatchOptions options = {.correspondence = false,
-                                .all_level_scores = false};
+  const MatchOptions options = {.correspondence = false};
   return FusedScore(MatchGlobal(a.graph, b.graph, options).score,
                     SignatureSimilarity(a.signature, b.signature));
 }

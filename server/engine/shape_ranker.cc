@@ -31,11 +31,9 @@ MatchOptions ScanOptions(const RankQuery& query) {
   MatchOptions options;
   options.attributes = query.attributes;
   // The coverage of a global match is that of the correspondence at its best
-  // level, so a bound on it needs all of both.
-  const bool coverage =
+  // level, so a bound on it needs both.
+  options.correspondence =
       query.mode == MatchMode::kGlobal && query.min_query_coverage > 0;
-  options.correspondence = coverage;
-  options.all_level_scores = coverage;
   return options;
 }
 

@@ -25,7 +25,6 @@ struct Options {
   std::string folder;
   std::string decomposition = "biharmonic";
   bool tuple = false;
-  bool all_levels = false;
   bool scales = false;
   int vertex_budget = 3000;
   int uniform_cells = 32;
@@ -152,9 +151,7 @@ void PrintRetrieval(const std::vector<Item>& items,
   for (const Item& item : items) graphs.emplace_back(item.computed.graph);
   MatchOptions match;
   match.correspondence = false;
-  match.all_level_scores = false;
   if (options.tuple) match.attributes = AttributeSet::kTuple;
-  if (options.all_levels) match.scored_levels = ScoredLevels::kAll;
   const auto n = static_cast<Eigen::Index>(graphs.size());
   Eigen::MatrixXd scores(n, n);
   const absl::Time start = absl::Now();
@@ -228,7 +225,6 @@ int main(int argc, char** argv) {
   app.add_option("--decomposition", options.decomposition)
       ->check(CLI::IsMember({"biharmonic", "normal-curvature", "voronoi"}));
   app.add_flag("--tuple", options.tuple, "The paper's tuple alone");
-  app.add_flag("--all-levels", options.all_levels, "Mean of all levels");
   app.add_flag("--scales", options.scales,
                "Print scales measured on every second mesh");
   app.add_option("--vertex-budget", options.vertex_budget);

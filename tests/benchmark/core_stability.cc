@@ -76,7 +76,6 @@ Outcome Judge(const MatchableGraph& query, size_t source,
               const Gallery& gallery) {
   MatchOptions match;
   match.correspondence = false;
-  match.all_level_scores = false;
   std::vector<std::pair<double, size_t>> ranking;
   Outcome outcome;
   int class_mates = 0;

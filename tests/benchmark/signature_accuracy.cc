@@ -230,7 +230,6 @@ std::vector<MatchableGraph> GraphsOf(const std::vector<Item>& items) {
 double GraphScore(const MatchableGraph& a, const MatchableGraph& b) {
   MatchOptions options;
   options.correspondence = false;
-  options.all_level_scores = false;
   return MatchGlobal(a, b, options).score;
 }
 
