@@ -20,6 +20,18 @@ Json MeasuresToJson(const EvaluationMeasures& measures) {
           {"dcg", measures.dcg}};
 }
 
+Json QueriesToJson(const std::vector<QueryMeasures>& queries) {
+  Json list = Json::array();
+  for (const QueryMeasures& query : queries) {
+    Json entry = {{"query", query.query}, {"class", query.label}};
+    entry.update(MeasuresToJson(query.measures));
+    entry.erase("queries");
+    if (query.source_rank > 0) entry["source_rank"] = query.source_rank;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 std::vector<std::string> MeasuresRow(const std::string& name,
                                      const EvaluationMeasures& measures) {
   std::vector<std::string> row = {name, std::to_string(measures.queries)};
@@ -67,6 +79,7 @@ Json ToJson(const Evaluation& evaluation) {
     json["source_top5"] = evaluation.source_top5;
   }
   json["per_class"] = std::move(per_class);
+  json["per_query"] = QueriesToJson(evaluation.per_query);
   json["matrix"] = MatrixToJson(evaluation);
   json["skipped"] = evaluation.skipped;
   json["failed"] = evaluation.failures.size();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -46,6 +47,7 @@ class EvaluationJob {
   RankedAnswer Ask(const EvaluationQuery& query) const;
   void AskAll();
   void AddMeasures(size_t query, Evaluation& evaluation) const;
+  int64_t SourceRank(size_t query_index) const;
   void AddSourceRank(size_t query, Evaluation& evaluation) const;
   void FillMatrix(Evaluation& evaluation) const;
   absl::Status WriteScores() const;
@@ -196,20 +198,28 @@ void EvaluationJob::AddMeasures(size_t query_index,
   const RetrievalMetrics metrics = EvaluateRanking(relevant, num_relevant);
   Add(metrics, evaluation.mean);
   Add(metrics, evaluation.per_class[query.label]);
+  QueryMeasures& own = evaluation.per_query.emplace_back();
+  own.query = query.name;
+  own.label = query.label;
+  own.source_rank = SourceRank(query_index);
+  Add(metrics, own.measures);
+}
+
+int64_t EvaluationJob::SourceRank(size_t query_index) const {
+  const std::optional<size_t>& source = queries_[query_index].source;
+  if (!source) return 0;
+  const std::vector<size_t>& ranked = answers_[query_index].ranked;
+  const auto found = std::find(ranked.begin(), ranked.end(), *source);
+  return found == ranked.end() ? 0 : found - ranked.begin() + 1;
 }
 
 void EvaluationJob::AddSourceRank(size_t query_index,
                                   Evaluation& evaluation) const {
-  const EvaluationQuery& query = queries_[query_index];
-  if (!query.source) return;
+  if (!queries_[query_index].source) return;
   ++evaluation.with_source;
-  const std::vector<size_t>& ranked = answers_[query_index].ranked;
-  const auto rank =
-      std::find(ranked.begin(), ranked.end(), *query.source) - ranked.begin();
-  if (rank < 1 && !ranked.empty()) evaluation.source_first += 1;
-  if (rank < 5 && rank < static_cast<int64_t>(ranked.size())) {
-    evaluation.source_top5 += 1;
-  }
+  const int64_t rank = SourceRank(query_index);
+  if (rank == 1) evaluation.source_first += 1;
+  if (rank >= 1 && rank <= 5) evaluation.source_top5 += 1;
 }
 
 void EvaluationJob::FillMatrix(Evaluation& evaluation) const {

@@ -41,6 +41,15 @@ struct EvaluationMeasures {
   double dcg = 0;  // normalised discounted cumulative gain
 };
 
+struct QueryMeasures {
+  std::string query;
+  std::string label;
+  EvaluationMeasures measures;  // of this query alone
+  // Of the shape the query was made from: 1 when it came first, 0 when it was
+  // not found or there is none.
+  int64_t source_rank = 0;
+};
+
 struct EvaluationFailure {
   std::string query;
   absl::Status status;
@@ -52,6 +61,7 @@ struct Evaluation {
   int64_t shapes = 0;  // with a class
   EvaluationMeasures mean;
   std::map<std::string, EvaluationMeasures> per_class;
+  std::vector<QueryMeasures> per_query;
   // Queries whose class has no shape to be found.
   int64_t skipped = 0;
   std::vector<EvaluationFailure> failures;

@@ -72,6 +72,8 @@ Evaluation ExampleEvaluation() {
   evaluation.mean = {
       .queries = 2, .nn = 1, .ft = 0.5, .st = 1, .e = 0.25, .dcg = 0.75};
   evaluation.per_class["cup"] = evaluation.mean;
+  evaluation.per_query.push_back(
+      {"cup-1", "cup", {.queries = 1, .ft = 0.25}, 3});
   evaluation.classes = {"ant", "cup"};
   evaluation.matrix = {{0.9, 0.5}, {0.4, 0.8}};
   return evaluation;
@@ -89,6 +91,11 @@ TEST(JsonOfAnEvaluation, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["per_class"]["cup"]["ft"], 0.5);
   EXPECT_EQ(json["matrix"]["diagonal_is_row_maximum"], true);
   EXPECT_FALSE(json.contains("source_first"));
+  ASSERT_EQ(json["per_query"].size(), 1);
+  EXPECT_EQ(json["per_query"][0]["query"], "cup-1");
+  EXPECT_EQ(json["per_query"][0]["class"], "cup");
+  EXPECT_EQ(json["per_query"][0]["ft"], 0.25);
+  EXPECT_EQ(json["per_query"][0]["source_rank"], 3);
   evaluation.has_sources = true;
   evaluation.with_source = 2;
   evaluation.source_first = 0.5;
