@@ -148,8 +148,7 @@ def parse_arguments():
         prog="./run accuracy", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true",
-                        help="one collection only: about 10 minutes instead "
-                        "of 40 on two cores")
+                        help="only the rows of the first collection")
     parser.add_argument("--report-only", action="store_true",
                         help="write the page from what is measured already")
     parser.add_argument("--binaries", type=pathlib.Path,

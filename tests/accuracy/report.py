@@ -31,7 +31,8 @@ the first C, 2 C. *E*: harmonic mean of precision and recall of the first 32. *D
 | psb | 904 | 90 | training half of the Princeton Shape Benchmark, base classes: soup with holes |
 | shrec16 | 198 | | shrec07 and 8 whole animals and people; queries are cut or full of holes, in other poses |
 
-**What was tuned on these.** Weights and scales of graphs were chosen on every second mesh of shrec07, the codebook of signatures was learnt from every second mesh of shrec07 and
+**What was tuned on these.** Weights and scales of graphs were chosen on every second mesh of shrec07, what makes the graphs' score of their levels
+by looking at both halves of it and at psb; the codebook of signatures was learnt from every second mesh of shrec07 and
 psb without classes, the window codebook from half of shrec07. Other collections will come out lower.
 """
 
@@ -44,7 +45,7 @@ derived from contest tables, not measured here.
 | PANORAMA (Papadakis 2010) | .957 | .673 | .784 | |
 | hybrid 2D/3D (Papadakis 2008) | .955 | .642 | .773 | |
 | covariance descriptors (Tabia 2014) | .930 | .623 | .737 | .864 |
-| light field (Chen 2003) | .923 | .526 | .662 | |
+| light field descriptors | .923 | .526 | .662 | |
 | augmented Reeb graphs (Tung, Schmitt; best of the contest) | | .70 | .82 | |
 | words of parts (Toldo 2009) | | .63 | .75 | |
 """
@@ -77,9 +78,9 @@ def with_interval(values):
 
 
 def table(head, lines):
-    text = [" | ".join(head), "|".join("---" for _ in head)]
-    text += [" | ".join(line) for line in lines]
-    return "".join(f"| {line} |\n" for line in text) + "\n"
+    rule = ["---"] * len(head)
+    return "".join("| " + " | ".join(line) + " |\n"
+                   for line in [head, rule, *lines])
 
 
 def section(name):
@@ -123,7 +124,7 @@ def comparison(pairs, results):
 def per_class(results):
     keys = [row for row in section("as-is") if row.key in results]
     if not keys:
-        return NOT_MEASURED + "\n\n"
+        return NOT_MEASURED + "\n"
     head = ["class"]
     for row in keys:
         head += [f"{row.title}: NN", "first tier"]
