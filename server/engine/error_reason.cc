@@ -52,7 +52,6 @@ constexpr ReasonEntry kReasons[] = {
      absl::StatusCode::kNotFound},
     {ErrorReason::kShapeExists, "SHAPE_EXISTS",
      absl::StatusCode::kAlreadyExists},
-    {ErrorReason::kShapeNotActive, "SHAPE_NOT_ACTIVE", kPrecondition},
     {ErrorReason::kNodeNotFound, "NODE_NOT_FOUND", absl::StatusCode::kNotFound},
     {ErrorReason::kEtagMismatch, "ETAG_MISMATCH", absl::StatusCode::kAborted},
     {ErrorReason::kGraphVersionMismatch, "GRAPH_VERSION_MISMATCH",

@@ -40,7 +40,6 @@ enum class ErrorReason {
   kCollectionNotEmpty = 42,
   kShapeNotFound = 43,
   kShapeExists = 44,
-  kShapeNotActive = 45,
   kNodeNotFound = 46,
   kEtagMismatch = 47,
   kGraphVersionMismatch = 48,
