@@ -1,5 +1,7 @@
-// The API keys of a server: `argmesh keys create | list | revoke`. They work on
-// the file, on the server's machine; the server reads it on SIGHUP.
+// The API keys of a server: `argmesh keys create | limit | list | revoke`. They
+// work on the file, on the server's machine; the server reads it on SIGHUP.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +36,15 @@ Examples:
 constexpr char kListDetails[] = R"(Examples:
   argmesh keys list --file keys.json)";
 
+constexpr char kLimitDetails[] =
+    R"(Takes the place of the limits before; without options the key has none. Counts
+once the server reads the file again. Calls beyond are refused with
+KEY_LIMIT_EXCEEDED and the time after which to try again.
+
+Examples:
+  argmesh keys limit --file keys.json ci --rate 20 --burst 40 --concurrent 4
+  argmesh keys limit --file keys.json ci)";
+
 constexpr char kRevokeDetails[] =
     R"(The key counts until the server reads the file again.
 
@@ -46,12 +57,43 @@ struct KeysArguments {
   std::string role = "read";
   std::vector<std::string> collections;
   int days = 0;  // 0: for ever
+  KeyLimits limits;
 };
 
 absl::StatusOr<KeyRing> ReadOrEmpty(const std::string& file) {
   absl::StatusOr<KeyRing> keys = ReadKeyFile(file);
   if (absl::IsNotFound(keys.status())) return KeyRing();
   return keys;
+}
+
+// A rate without a burst: a second's calls at once.
+absl::StatusOr<KeyLimits> LimitsOf(const KeysArguments& arguments) {
+  KeyLimits limits = arguments.limits;
+  if (limits.requests_per_second > 0 && limits.burst == 0) {
+    limits.burst = static_cast<int>(
+        std::ceil(std::min(limits.requests_per_second, kMaxKeyRate)));
+  }
+  const absl::Status status = CheckKeyLimits(limits);
+  if (!status.ok()) return UsageError(std::string(status.message()));
+  return limits;
+}
+
+std::string TextOf(const KeyLimits& limits) {
+  std::vector<std::string> parts;
+  if (limits.requests_per_second > 0) {
+    parts.push_back(absl::StrFormat("%g/s, %d at once",
+                                    limits.requests_per_second, limits.burst));
+  }
+  if (limits.concurrent_calls > 0) {
+    parts.push_back(absl::StrFormat("%d concurrent", limits.concurrent_calls));
+  }
+  return parts.empty() ? "none" : absl::StrJoin(parts, "; ");
+}
+
+Json ToJson(const KeyLimits& limits) {
+  return {{"requests_per_second", limits.requests_per_second},
+          {"burst", limits.burst},
+          {"concurrent_calls", limits.concurrent_calls}};
 }
 
 std::string ExpiryOf(const ApiKey& key) {
@@ -77,6 +119,11 @@ absl::Status CheckArguments(const KeysArguments& arguments) {
   return absl::OkStatus();
 }
 
+absl::Status NoSuchKey(const KeysArguments& arguments) {
+  return absl::NotFoundError(
+      absl::StrFormat("%s has no key %s", arguments.file, arguments.id));
+}
+
 absl::StatusOr<int> CreateKey(const Session& session,
                               const KeysArguments& arguments) {
   ARGMESH_RETURN_IF_ERROR(CheckArguments(arguments));
@@ -95,6 +142,7 @@ absl::StatusOr<int> CreateKey(const Session& session,
   key.secret_sha256 = HashKeySecret(secret);
   ARGMESH_ASSIGN_OR_RETURN(key.role, ParseAccessRole(arguments.role));
   key.collections = arguments.collections;
+  ARGMESH_ASSIGN_OR_RETURN(key.limits, LimitsOf(arguments));
   key.create_time = absl::Now();
   if (arguments.days > 0) {
     key.expire_time = key.create_time + absl::Hours(24) * arguments.days;
@@ -107,6 +155,7 @@ absl::StatusOr<int> CreateKey(const Session& session,
                    {"key", text},
                    {"role", arguments.role},
                    {"collections", key.collections},
+                   {"limits", ToJson(key.limits)},
                    {"expires", ExpiryOf(key)}});
   } else {
     session.out << text << '\n';
@@ -119,17 +168,18 @@ absl::StatusOr<int> ListKeys(const Session& session,
                              const KeysArguments& arguments) {
   ARGMESH_ASSIGN_OR_RETURN(const KeyRing keys, ReadKeyFile(arguments.file));
   Json list = Json::array();
-  TextTable table({"id", "role", "collections", "expires", ""});
+  TextTable table({"id", "role", "collections", "limits", "expires", ""});
   for (const auto& [id, key] : keys) {
     const bool expired = key.expire_time <= absl::Now();
     const std::string role(AccessRoleName(key.role));
     list.push_back({{"id", id},
                     {"role", role},
                     {"collections", key.collections},
+                    {"limits", ToJson(key.limits)},
                     {"expires", ExpiryOf(key)},
                     {"expired", expired}});
-    table.AddRow({id, role, CollectionsOf(key), ExpiryOf(key),
-                  expired ? "expired" : ""});
+    table.AddRow({id, role, CollectionsOf(key), TextOf(key.limits),
+                  ExpiryOf(key), expired ? "expired" : ""});
   }
   if (session.options.json) {
     session.Print({{"keys", std::move(list)}});
@@ -139,13 +189,27 @@ absl::StatusOr<int> ListKeys(const Session& session,
   return kExitOk;
 }
 
+absl::StatusOr<int> LimitKey(const Session& session,
+                             const KeysArguments& arguments) {
+  ARGMESH_ASSIGN_OR_RETURN(const KeyLimits limits, LimitsOf(arguments));
+  ARGMESH_ASSIGN_OR_RETURN(KeyRing keys, ReadKeyFile(arguments.file));
+  const auto key = keys.find(arguments.id);
+  if (key == keys.end()) return NoSuchKey(arguments);
+  key->second.limits = limits;
+  ARGMESH_RETURN_IF_ERROR(WriteKeyFile(arguments.file, keys));
+  if (session.options.json) {
+    session.Print({{"id", arguments.id}, {"limits", ToJson(limits)}});
+  } else {
+    session.out << arguments.id << " limits: " << TextOf(limits)
+                << "; send the server a SIGHUP\n";
+  }
+  return kExitOk;
+}
+
 absl::StatusOr<int> RevokeKey(const Session& session,
                               const KeysArguments& arguments) {
   ARGMESH_ASSIGN_OR_RETURN(KeyRing keys, ReadKeyFile(arguments.file));
-  if (keys.erase(arguments.id) == 0) {
-    return absl::NotFoundError(
-        absl::StrFormat("%s has no key %s", arguments.file, arguments.id));
-  }
+  if (keys.erase(arguments.id) == 0) return NoSuchKey(arguments);
   ARGMESH_RETURN_IF_ERROR(WriteKeyFile(arguments.file, keys));
   if (session.options.json) {
     session.Print({{"revoked", arguments.id}});
@@ -165,6 +229,23 @@ void AddIdArgument(CLI::App* command, KeysArguments& arguments) {
   command->add_option("id", arguments.id, "Name of the key")
       ->required()
       ->type_name("ID");
+}
+
+void AddLimitOptions(CLI::App* command, KeyLimits& limits) {
+  command
+      ->add_option("--rate", limits.requests_per_second,
+                   "Calls a second on the average; 0: no limit")
+      ->type_name("R")
+      ->capture_default_str();
+  command
+      ->add_option("--burst", limits.burst,
+                   "Calls at once after a rest (default: those of a second)")
+      ->type_name("N");
+  command
+      ->add_option("--concurrent", limits.concurrent_calls,
+                   "Calls and streams under way at a time; 0: no limit")
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void AddCreateOptions(CLI::App* command, KeysArguments& arguments) {
@@ -201,6 +282,11 @@ void AddKeysCommands(CLI::App& app, CommandSet& commands) {
       add({"create", "Make a key and show it.", kCreateDetails}, CreateKey);
   AddIdArgument(create, *arguments);
   AddCreateOptions(create, *arguments);
+  AddLimitOptions(create, arguments->limits);
+  CLI::App* limit =
+      add({"limit", "Set what a key may use.", kLimitDetails}, LimitKey);
+  AddIdArgument(limit, *arguments);
+  AddLimitOptions(limit, arguments->limits);
   add({"list", "Show the keys of a file.", kListDetails}, ListKeys);
   AddIdArgument(add({"revoke", "Remove a key.", kRevokeDetails}, RevokeKey),
                 *arguments);

@@ -37,6 +37,24 @@ absl::StatusOr<AccessRole> ParseAccessRole(std::string_view name) {
       "role '%s' is not one of read, write, admin", std::string(name)));
 }
 
+absl::Status CheckKeyLimits(const KeyLimits& limits) {
+  const double rate = limits.requests_per_second;
+  if (!(rate >= 0 && rate <= kMaxKeyRate)) {  // not NaN
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "requests_per_second %g is not 0 .. %g", rate, kMaxKeyRate));
+  }
+  if (limits.burst < (rate > 0 ? 1 : 0) || limits.burst > kMaxKeyCalls) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("burst %d is not 1 .. %d", limits.burst, kMaxKeyCalls));
+  }
+  if (limits.concurrent_calls < 0 || limits.concurrent_calls > kMaxKeyCalls) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("concurrent_calls %d is not 0 .. %d",
+                        limits.concurrent_calls, kMaxKeyCalls));
+  }
+  return absl::OkStatus();
+}
+
 std::string MakeKeySecret() {
   std::array<char, kSecretBytes> bytes;
   // At most 256 bytes are given at once and whole (getrandom(2)); without the

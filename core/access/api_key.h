@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "core/base/sha256.h"
@@ -24,11 +25,28 @@ std::string_view AccessRoleName(AccessRole role);
 // kInvalidArgument for any other word.
 absl::StatusOr<AccessRole> ParseAccessRole(std::string_view name);
 
+// What the holder of a key may use; 0: as much as the server has.
+struct KeyLimits {
+  double requests_per_second = 0;  // on the average
+  int burst = 0;                   // at once after a rest; >= 1 with a rate
+  int concurrent_calls = 0;
+
+  bool any() const { return requests_per_second > 0 || concurrent_calls > 0; }
+  friend bool operator==(const KeyLimits&, const KeyLimits&) = default;
+};
+
+inline constexpr double kMaxKeyRate = 1e6;
+inline constexpr int kMaxKeyCalls = 1'000'000;  // burst, concurrent_calls
+
+// kInvalidArgument naming the limit that is out of its range.
+absl::Status CheckKeyLimits(const KeyLimits& limits);
+
 struct ApiKey {
   std::string id;  // as a collection's
   Sha256Digest secret_sha256{};
   AccessRole role = AccessRole::kRead;
   std::vector<std::string> collections;  // ids; empty: all
+  KeyLimits limits;
   absl::Time create_time;
   absl::Time expire_time = absl::InfiniteFuture();  // infinite: never
 };

@@ -106,12 +106,44 @@ absl::Status CheckFields(const Json& object,
   return absl::OkStatus();
 }
 
+// A whole number; `limit` is 0 where the field is missing.
+absl::Status ReadCount(const Json& key, const char* field,
+                       const std::string& where, int& limit) {
+  const auto it = key.find(field);
+  if (it == key.end()) return absl::OkStatus();
+  if (!it->is_number_integer() || it->get<int64_t>() < 0 ||
+      it->get<int64_t>() > kMaxKeyCalls) {
+    return Invalid(where, absl::StrFormat("%s is no whole number up to %d",
+                                          field, kMaxKeyCalls));
+  }
+  limit = it->get<int>();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<KeyLimits> LimitsOf(const Json& key, const std::string& where) {
+  KeyLimits limits;
+  if (const auto rate = key.find("requests_per_second"); rate != key.end()) {
+    if (!rate->is_number()) {
+      return Invalid(where, "requests_per_second is no number");
+    }
+    limits.requests_per_second = rate->get<double>();
+  }
+  ARGMESH_RETURN_IF_ERROR(ReadCount(key, "burst", where, limits.burst));
+  ARGMESH_RETURN_IF_ERROR(
+      ReadCount(key, "concurrent_calls", where, limits.concurrent_calls));
+  if (const absl::Status status = CheckKeyLimits(limits); !status.ok()) {
+    return Invalid(where, std::string(status.message()));
+  }
+  return limits;
+}
+
 absl::StatusOr<ApiKey> KeyOf(const Json& json, size_t index) {
   std::string where = absl::StrFormat("key %d", index + 1);
-  ARGMESH_RETURN_IF_ERROR(CheckFields(
-      json,
-      {"id", "sha256", "role", "collections", "create_time", "expire_time"},
-      where));
+  ARGMESH_RETURN_IF_ERROR(
+      CheckFields(json,
+                  {"id", "sha256", "role", "collections", "requests_per_second",
+                   "burst", "concurrent_calls", "create_time", "expire_time"},
+                  where));
   ApiKey key;
   ARGMESH_ASSIGN_OR_RETURN(key.id, TextOf(json, "id", where));
   if (!IsIdentifier(key.id)) {
@@ -126,6 +158,7 @@ absl::StatusOr<ApiKey> KeyOf(const Json& json, size_t index) {
   }
   key.role = *parsed;
   ARGMESH_ASSIGN_OR_RETURN(key.collections, CollectionsOf(json, where));
+  ARGMESH_ASSIGN_OR_RETURN(key.limits, LimitsOf(json, where));
   ARGMESH_ASSIGN_OR_RETURN(key.create_time, TimeOf(json, "create_time", where));
   if (json.contains("expire_time")) {
     ARGMESH_ASSIGN_OR_RETURN(key.expire_time,
@@ -143,6 +176,13 @@ Json ToJson(const ApiKey& key) {
                {"sha256", ToHex(key.secret_sha256)},
                {"role", std::string(AccessRoleName(key.role))}};
   if (!key.collections.empty()) json["collections"] = key.collections;
+  if (key.limits.requests_per_second > 0) {
+    json["requests_per_second"] = key.limits.requests_per_second;
+    json["burst"] = key.limits.burst;
+  }
+  if (key.limits.concurrent_calls > 0) {
+    json["concurrent_calls"] = key.limits.concurrent_calls;
+  }
   json["create_time"] = TimeText(key.create_time);
   if (key.expire_time != absl::InfiniteFuture()) {
     json["expire_time"] = TimeText(key.expire_time);

@@ -3,10 +3,12 @@
 //
 //   {"keys": [{"id": "ci", "sha256": "<64 hexadecimal digits>",
 //              "role": "write", "collections": ["parts"],
+//              "requests_per_second": 20, "burst": 40, "concurrent_calls": 4,
 //              "create_time": "2026-01-31T00:00:00+00:00",
 //              "expire_time": "2027-01-31T00:00:00+00:00"}]}
 //
-// `collections` may be missing (all of them), `expire_time` too (never).
+// `collections` may be missing (all of them), `expire_time` too (never), and
+// the limits (none).
 #ifndef ARGMESH_CORE_ACCESS_KEY_FILE_H_
 #define ARGMESH_CORE_ACCESS_KEY_FILE_H_
 

@@ -67,6 +67,7 @@ constexpr ReasonEntry kReasons[] = {
     {ErrorReason::kStoreFull, "STORE_FULL", kExhausted},
     {ErrorReason::kCreditExceeded, "CREDIT_EXCEEDED", kExhausted},
     {ErrorReason::kResponseTooLarge, "RESPONSE_TOO_LARGE", kExhausted},
+    {ErrorReason::kKeyLimitExceeded, "KEY_LIMIT_EXCEEDED", kExhausted},
     {ErrorReason::kKeyMissing, "KEY_MISSING",
      absl::StatusCode::kUnauthenticated},
     {ErrorReason::kKeyInvalid, "KEY_INVALID",

@@ -52,6 +52,7 @@ enum class ErrorReason {
   kStoreFull = 61,
   kCreditExceeded = 62,
   kResponseTooLarge = 63,
+  kKeyLimitExceeded = 64,
 
   kKeyMissing = 70,
   kKeyInvalid = 71,

@@ -46,6 +46,7 @@ bool Caller::Covers(std::string_view collection) const {
 }
 
 void AccessControl::SetKeys(std::shared_ptr<const KeyRing> keys) {
+  if (keys != nullptr) quotas_.KeepOnly(*keys);
   const std::lock_guard lock(mutex_);
   keys_ = std::move(keys);
 }
@@ -96,8 +97,10 @@ absl::StatusOr<Caller> CallerOfBearer(const KeyRing& keys,
                                      absl::FormatTime(key.expire_time,
                                                       absl::UTCTimeZone())));
   }
-  return Caller{
-      .principal = key.id, .role = key.role, .collections = key.collections};
+  return Caller{.principal = key.id,
+                .role = key.role,
+                .collections = key.collections,
+                .limits = key.limits};
 }
 
 absl::Status CheckRole(const Caller& caller, std::string_view method) {

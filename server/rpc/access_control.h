@@ -19,9 +19,11 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "core/access/key_file.h"
 #include "server/rpc/access_rules.h"
+#include "server/rpc/key_quotas.h"
 
 namespace argmesh {
 
@@ -29,6 +31,7 @@ struct Caller {
   std::string principal;  // a key's id, "cert:<name>", or empty
   AccessRole role = AccessRole::kAdmin;
   std::vector<std::string> collections;  // ids; empty: all
+  KeyLimits limits = {};
 
   bool Covers(std::string_view collection) const;
 };
@@ -39,6 +42,12 @@ class AccessControl {
   void SetKeys(std::shared_ptr<const KeyRing> keys);
   bool has_keys() const;
 
+  // Takes its place among the calls of its key; held until it has ended.
+  // KEY_LIMIT_EXCEEDED.
+  absl::StatusOr<KeyQuotas::Ticket> Admit(const Caller& caller) {
+    return quotas_.Admit(caller.principal, caller.limits, absl::Now());
+  }
+
   // kUnauthenticated KEY_MISSING, KEY_INVALID, KEY_EXPIRED.
   absl::StatusOr<Caller> Authenticate(
       const grpc::ServerContextBase& context) const;
@@ -48,6 +57,7 @@ class AccessControl {
 
   mutable std::mutex mutex_;
   std::shared_ptr<const KeyRing> keys_;
+  KeyQuotas quotas_;
 };
 
 // The caller of a bearer header; `keys` as of `now`. For tests too.

@@ -67,6 +67,12 @@ absl::Status CallScope::Authorize(const google::protobuf::Message* request) {
     const std::lock_guard lock(mutex_);
     record_.principal = caller_.principal;
   }
+  ARGMESH_ASSIGN_OR_RETURN(KeyQuotas::Ticket quota,
+                           environment_.access.Admit(caller_));
+  {
+    const std::lock_guard lock(mutex_);
+    if (!finished_) quota_.swap(quota);  // else it is given back at once
+  }
   ARGMESH_RETURN_IF_ERROR(CheckRole(caller_, record_.method));
   return request == nullptr ? absl::OkStatus() : AuthorizeMessage(*request);
 }
@@ -82,6 +88,12 @@ absl::Status CallScope::AuthorizeMessage(
     record_.resource = names.front().substr(0, kMaxLoggedName);
   }
   return absl::OkStatus();
+}
+
+void CallScope::ReleaseQuota() {
+  KeyQuotas::Ticket released;
+  const std::lock_guard lock(mutex_);
+  released.swap(quota_);
 }
 
 void CallScope::MarkWorkBegin() {

@@ -44,13 +44,17 @@ class CallScope {
   // True the first time only. Takes mutex().
   bool MarkFinished();
 
-  // Whether the caller may make this call; `request` is null where the client
-  // streams. Once, before anything else of the call is done.
+  // Whether the caller may make this call, and no more than its key allows;
+  // `request` is null where the client streams. Once, before anything else of
+  // the call is done.
   absl::Status Authorize(const google::protobuf::Message* request);
   // The same for a message of a stream. Only the first has to name a
   // collection.
   absl::Status AuthorizeMessage(const google::protobuf::Message& message);
   const Caller& caller() const { return caller_; }
+
+  // Gives back the caller's place among the calls of its key.
+  void ReleaseQuota();
 
   // The call, or a part of it, has its turn on a pool. The first time counts.
   void MarkWorkBegin();
@@ -70,8 +74,9 @@ class CallScope {
   ServiceEnvironment& environment_;
   grpc::CallbackServerContext* context_;
   Caller caller_;
-  bool named_ = false;  // a message of the call has named a resource
-  CallRecord record_;   // with mutex_ once the call has begun
+  KeyQuotas::Ticket quota_;  // with mutex_
+  bool named_ = false;       // a message of the call has named a resource
+  CallRecord record_;        // with mutex_ once the call has begun
   std::stop_source stop_source_;
   StopToken stop_;
   std::mutex mutex_;

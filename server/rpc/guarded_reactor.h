@@ -169,6 +169,7 @@ class GuardedReactor
   }
 
   void ReleaseTicket() {
+    scope_.ReleaseQuota();
     const std::lock_guard lock(scope_.mutex());
     ticket_.Release();
   }

@@ -111,12 +111,14 @@ ProvokedErrors::Provocations ProvokedErrors::OfStreams() {
 
 ErrorOf ProvokedErrors::CallWithKeys(const std::string& key) {
   KeyRing ring;
-  for (const char* id : {"reader", "late"}) {
+  for (const char* id : {"reader", "late", "limited"}) {
     ApiKey& made = ring[id];
     made.id = id;
     made.secret_sha256 = HashKeySecret(std::string(43, 's'));
   }
   ring["late"].expire_time = absl::Now() - absl::Hours(1);
+  ring["limited"].limits = {
+      .requests_per_second = 0.001, .burst = 1, .concurrent_calls = 0};
   server_.rpc().SetKeys(std::make_shared<const KeyRing>(ring));
   v1::CreateCollectionRequest request;
   request.set_collection_id("keyed");
@@ -130,7 +132,13 @@ ProvokedErrors::Provocations ProvokedErrors::OfKeys() {
   const auto with = [this](const std::string& key) {
     return [this, key] { return CallWithKeys(key); };
   };
-  return {{"KEY_MISSING", with("")},
+  const std::string limited = KeyText("limited", std::string(43, 's'));
+  return {{"KEY_LIMIT_EXCEEDED",
+           [this, limited] {
+             CallWithKeys(limited);
+             return CallWithKeys(limited);
+           }},
+          {"KEY_MISSING", with("")},
           {"KEY_INVALID", with(KeyText("reader", std::string(43, 'x')))},
           {"KEY_EXPIRED", with(KeyText("late", std::string(43, 's')))},
           {"PERMISSION_DENIED", with(KeyText("reader", std::string(43, 's')))}};

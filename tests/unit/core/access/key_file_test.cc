@@ -28,6 +28,8 @@ KeyRing TwoKeys() {
   ApiKey bound = Key("ci", AccessRole::kWrite);
   bound.collections = {"parts", "tools"};
   bound.expire_time = absl::FromUnixSeconds(1'800'000'000);
+  bound.limits = {
+      .requests_per_second = 0.5, .burst = 3, .concurrent_calls = 4};
   return {{"ci", bound}, {"ops", Key("ops", AccessRole::kAdmin)}};
 }
 
@@ -39,6 +41,7 @@ void ExpectEqual(const KeyRing& a, const KeyRing& b) {
     EXPECT_EQ(key.secret_sha256, other.secret_sha256);
     EXPECT_EQ(key.role, other.role);
     EXPECT_EQ(key.collections, other.collections);
+    EXPECT_EQ(key.limits, other.limits);
     EXPECT_EQ(key.create_time, other.create_time);
     EXPECT_EQ(key.expire_time, other.expire_time);
   }
@@ -72,6 +75,13 @@ TEST(ParseKeys, NamesWhatIsWrong) {
       {one(good + ",\"expire_time\":\"tomorrow\""), "tomorrow"},
       {one(good + ",\"expire_time\":7"), "expire_time"},
       {one(good + ",\"collections\":[]"), "collections"},
+      {one(good + ",\"requests_per_second\":\"many\""), "requests_per_second"},
+      {one(good + ",\"requests_per_second\":-1,\"burst\":1"),
+       "requests_per_second"},
+      {one(good + ",\"requests_per_second\":2"), "burst"},
+      {one(good + ",\"requests_per_second\":2,\"burst\":1.5"), "burst"},
+      {one(good + ",\"burst\":9999999"), "burst"},
+      {one(good + ",\"concurrent_calls\":-1"), "concurrent_calls"},
       {one(good + ",\"collections\":[\"Parts\"]"), "Parts"},
       {one(good + ",\"collections\":\"parts\""), "collections"},
       {one("\"id\":\"ci\",\"sha256\":\"" + digest + "\",\"role\":\"root\"," +
