@@ -155,22 +155,6 @@ absl::Status Client::DeleteCollection(
       .status();
 }
 
-absl::StatusOr<v1::SearchShapesResponse> Client::SearchShapes(
-    const v1::SearchShapesRequest& request) {
-  return parts_->Call<v1::SearchShapesResponse>(
-      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
-        return parts_->search->SearchShapes(context, request, response);
-      });
-}
-
-absl::StatusOr<v1::CompareShapesResponse> Client::CompareShapes(
-    const v1::CompareShapesRequest& request) {
-  return parts_->Call<v1::CompareShapesResponse>(
-      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
-        return parts_->search->CompareShapes(context, request, response);
-      });
-}
-
 absl::StatusOr<v1::GetServerInfoResponse> Client::GetServerInfo() {
   const v1::GetServerInfoRequest request;
   return parts_->Call<v1::GetServerInfoResponse>(

@@ -28,9 +28,11 @@
 #include "absl/status/statusor.h"
 #include "argmesh/v1/admin_service.pb.h"
 #include "argmesh/v1/collection_service.pb.h"
+#include "argmesh/v1/ingest_service.pb.h"
 #include "argmesh/v1/search_service.pb.h"
 #include "argmesh/v1/shape_service.pb.h"
 #include "client/client_options.h"
+#include "client/operation_watch.h"
 
 namespace argmesh {
 
@@ -96,10 +98,21 @@ class Client {
       int level = 0);
 
   // --- search --------------------------------------------------------------
+  // A query mesh may be of any size: one that does not fit in a message goes
+  // over StreamSearchShapes, whose answer is the same.
   absl::StatusOr<v1::SearchShapesResponse> SearchShapes(
       const v1::SearchShapesRequest& request);
   absl::StatusOr<v1::CompareShapesResponse> CompareShapes(
       const v1::CompareShapesRequest& request);
+
+  // --- long work -----------------------------------------------------------
+  // Each waits until the server is done. When the server cannot be reached any
+  // more it goes on there all the same.
+  absl::StatusOr<v1::ReindexCollectionResponse> ReindexCollection(
+      const v1::ReindexCollectionRequest& request,
+      const OperationWatch& watch = {});
+  absl::StatusOr<v1::ImportShapesResponse> ImportShapes(
+      const v1::ImportShapesRequest& request, const OperationWatch& watch = {});
 
   // --- the server ----------------------------------------------------------
   absl::StatusOr<v1::GetServerInfoResponse> GetServerInfo();

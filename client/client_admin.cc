@@ -4,6 +4,7 @@
 #include "absl/strings/str_format.h"
 #include "client/client.h"
 #include "client/client_parts.h"
+#include "client/operation_wait.h"
 #include "core/base/sha256.h"
 #include "core/base/status_macros.h"
 
@@ -11,31 +12,6 @@ namespace argmesh {
 namespace {
 
 using google::longrunning::Operation;
-
-// The server answers a wait at least so often: well within any call's time.
-constexpr int64_t kWaitSeconds = 5;
-
-// Waits for the end of an operation; its response.
-template <typename Response>
-absl::StatusOr<Response> Await(Client::Parts& parts, Operation operation) {
-  while (!operation.done()) {
-    google::longrunning::WaitOperationRequest request;
-    request.set_name(operation.name());
-    request.mutable_timeout()->set_seconds(kWaitSeconds);
-    ARGMESH_ASSIGN_OR_RETURN(
-        operation,
-        parts.Call<Operation>(Repeat::kSafe, [&](grpc::ClientContext* context,
-                                                 auto* response) {
-          return parts.operations->WaitOperation(context, request, response);
-        }));
-  }
-  if (operation.has_error()) return ToStatus(operation.error());
-  Response response;
-  if (!operation.response().UnpackTo(&response)) {
-    return absl::InternalError("the operation's answer is of another type");
-  }
-  return response;
-}
 
 }  // namespace
 

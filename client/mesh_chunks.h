@@ -1,11 +1,15 @@
-// A file in the pieces that a stream carries.
+// A file in a message, or in the pieces that a stream carries.
 #ifndef ARGMESH_CLIENT_MESH_CHUNKS_H_
 #define ARGMESH_CLIENT_MESH_CHUNKS_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace argmesh {
+
+// Of a mesh in a message: the largest message less room for the rest.
+inline constexpr int64_t kMaxInlineMeshBytes = (4 << 20) - (64 << 10);
 
 inline constexpr size_t kMeshChunkBytes = size_t{256} * 1024;
 

@@ -23,6 +23,8 @@ struct Seconds {
 
 void AddServingOptions(CLI::App& app, ServerOptions& options) {
   app.add_option("--data", options.data, "Folder of everything stored");
+  app.add_option("--import-root", options.import_root,
+                 "Folder below which ImportShapes may read files");
   app.add_option("--listen", options.listen,
                  "HOST:PORT; port 0 takes a free one");
   app.add_option("--port-file", options.port_file,
@@ -219,7 +221,9 @@ absl::StatusOr<ParsedOptions> ParseServerOptions(
 
 std::string FormatServerOptions(const ServerOptions& options) {
   return absl::StrCat(
-      "data=", Quoted(options.data), "\nlisten=", Quoted(options.listen),
+      "data=", Quoted(options.data),
+      "\nimport-root=", Quoted(options.import_root),
+      "\nlisten=", Quoted(options.listen),
       "\nport-file=", Quoted(options.port_file),
       "\ninsecure-remote=", OnOff(options.insecure_remote),
       "\nreflection=", OnOff(options.reflection),

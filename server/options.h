@@ -23,6 +23,7 @@ namespace argmesh {
 struct ServerOptions {
   std::string data;                       // folder; required to serve
   std::string listen = "127.0.0.1:7411";  // HOST:PORT, port 0: a free one
+  std::string import_root;                // a folder; empty: no imports
   int threads = 0;                        // 0 .. 1024; 0: from the CPUs
   int64_t max_mesh_bytes = 512LL << 20;   // 1 .. 2^40
   int max_inflight_searches = 64;         // 1 .. 100,000

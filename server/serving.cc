@@ -98,6 +98,9 @@ std::string NotReloaded(const ServerOptions& before, ServerOptions after) {
 absl::Status CheckServerOptions(const ServerOptions& options) {
   ARGMESH_ASSIGN_OR_RETURN(const RpcServerOptions rpc, RpcOptionsOf(options));
   ARGMESH_RETURN_IF_ERROR(CheckTls(rpc.tls));
+  if (!options.import_root.empty()) {
+    ARGMESH_RETURN_IF_ERROR(ImportRoot::Open(options.import_root).status());
+  }
   if (!options.metrics_listen.empty()) {
     const absl::Status metrics =
         ParseListenAddress(options.metrics_listen).status();
@@ -133,6 +136,11 @@ absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
   ARGMESH_RETURN_IF_ERROR(serving->OpenStore());
   ARGMESH_ASSIGN_OR_RETURN(RpcServerOptions rpc, RpcOptionsOf(options));
   rpc.store_admin = serving->snapshots_.get();
+  if (!options.import_root.empty()) {
+    ARGMESH_ASSIGN_OR_RETURN(serving->import_root_,
+                             ImportRoot::Open(options.import_root));
+    rpc.import_source = serving->import_root_.get();
+  }
   ARGMESH_ASSIGN_OR_RETURN(
       serving->rpc_,
       RpcServer::Start(rpc, *serving->engine_, *serving->telemetry_));

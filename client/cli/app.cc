@@ -66,6 +66,8 @@ void AddGlobalOptions(CLI::App& app, GlobalOptions& options) {
 
 void AddCommands(CLI::App& app, CommandSet& commands) {
   AddIngestCommand(app, commands);
+  AddImportCommand(app, commands);
+  AddReindexCommand(app, commands);
   AddSearchCommand(app, commands);
   AddCompareCommand(app, commands);
   AddDeclareCommand(app, commands);

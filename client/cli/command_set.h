@@ -44,6 +44,8 @@ CLI::Option* AddCollectionOption(CLI::App* command, std::string& collection);
 
 // One file each.
 void AddIngestCommand(CLI::App& app, CommandSet& commands);
+void AddImportCommand(CLI::App& app, CommandSet& commands);
+void AddReindexCommand(CLI::App& app, CommandSet& commands);
 void AddSearchCommand(CLI::App& app, CommandSet& commands);
 void AddCompareCommand(CLI::App& app, CommandSet& commands);
 void AddDeclareCommand(CLI::App& app, CommandSet& commands);

@@ -161,7 +161,7 @@ absl::StatusOr<v1::ShapeReference> MakeShapeReference(
   std::error_code error;
   if (std::filesystem::is_regular_file(id_or_file, error)) {
     ARGMESH_ASSIGN_OR_RETURN(*reference.mutable_mesh(),
-                             ReadQueryMesh(id_or_file));
+                             ReadInlineMesh(id_or_file));
     return reference;
   }
   if (!IsIdentifier(id_or_file)) {

@@ -59,6 +59,9 @@ class Catalog {
   // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kRequestIdReused.
   virtual absl::StatusOr<ShapeDeleted> DeleteShape(
       const ShapeDelete& removal) = 0;
+  // All of `ids`, or none. kCollectionNotFound, kShapeNotFound.
+  virtual absl::StatusOr<ShapeDeleted> DeleteShapes(
+      std::string_view collection, const std::vector<std::string>& ids) = 0;
   // kCollectionNotFound, kShapeNotFound.
   virtual absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                                std::string_view id) const = 0;

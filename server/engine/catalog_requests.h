@@ -30,7 +30,8 @@ struct CollectionPatch {
   std::string id;
   std::optional<std::string> display_name;
   std::optional<std::vector<MetadataKey>> metadata_keys;  // all of them
-  std::string etag;                                       // empty: any
+  std::optional<uint32_t> graph_version;
+  std::string etag;  // empty: any
   absl::Time update_time;
 };
 
@@ -106,7 +107,7 @@ struct ShapeDelete {
 
 struct ShapeDeleted {
   std::string collection_uid;
-  int64_t generation = 0;
+  int64_t generation = 0;  // of the collection without it
   std::vector<Sha256Digest> unreferenced;
 };
 

@@ -64,6 +64,15 @@ void CollectionIndex::RemoveEntry(const std::string& id) {
   slots_.erase(it);
 }
 
+std::vector<std::string> CollectionIndex::Outdated() const {
+  std::vector<std::string> ids;
+  for (const auto& [id, why] : unusable_) {
+    if (why == Unusable::kOutdated) ids.push_back(id);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 void CollectionIndex::Publish(int64_t generation) {
   auto snapshot = std::make_shared<GallerySnapshot>();
   snapshot->collection = collection_;

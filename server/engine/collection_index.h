@@ -32,6 +32,9 @@ class CollectionIndex {
   void PutUnusable(const std::string& id, Unusable why);
   void Remove(const std::string& id);
 
+  // Ids of the shapes that another version described, ascending.
+  std::vector<std::string> Outdated() const;
+
   // Makes the changes so far visible as those of `generation`.
   void Publish(int64_t generation);
 

@@ -31,10 +31,10 @@ struct CollectionRecord {
   std::string display_name;
   CollectionSettings settings;
   std::vector<MetadataKey> metadata_keys;  // the declared ones
-  uint32_t graph_version = 0;  // kShapeGraphVersion when it was created
-  int64_t generation = 0;      // +1 for every shape written or deleted
-  int64_t shape_count = 0;     // in the same read as the generation
-  int64_t revision = 1;        // +1 for every update of the record itself
+  uint32_t graph_version = 0;              // of the graphs that it takes
+  int64_t generation = 0;   // +1 for every shape written or deleted
+  int64_t shape_count = 0;  // in the same read as the generation
+  int64_t revision = 1;     // +1 for every update of the record itself
   absl::Time create_time;
   absl::Time update_time;
 

@@ -1,9 +1,9 @@
 // The shape-retrieval engine: everything the service does, without gRPC.
 //
 // Thread-safe. Every call blocks until it is done and is meant to run on
-// pool() (AddShape and searches by mesh as kCompute, other searches and
-// comparisons as kSearch, the rest as kQuick). A StopToken is checked at least
-// every 50 ms of work; a write that has reached the catalog completes.
+// pool() (AddShape as kCompute, searches and comparisons as kSearch, the rest
+// as kQuick). A StopToken is checked at least every 50 ms of work; a write that
+// has reached the catalog completes.
 //
 // Repeats  equal state and query give bit-equal answers, whatever the threads.
 // Fails    with MakeError's statuses; the reasons are named at each function,
@@ -24,7 +24,9 @@
 #include "server/engine/catalog.h"
 #include "server/engine/compute_pool.h"
 #include "server/engine/engine_options.h"
+#include "server/engine/import_source.h"
 #include "server/engine/index_state.h"
+#include "server/engine/item_run.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/mesh_upload.h"
 #include "server/engine/search_requests.h"
@@ -73,12 +75,29 @@ class Engine {
   absl::StatusOr<ShapeRecord> UpdateShape(ShapePatch patch);
   // The collection's generation after it. kEtagMismatch, kRequestIdReused.
   absl::StatusOr<int64_t> DeleteShape(const ShapeRemoval& removal);
+  // All of `ids`, each once, or none.
+  absl::StatusOr<int64_t> DeleteShapes(const std::string& collection,
+                                       const std::vector<std::string>& ids);
   // kMeshNotStored.
   absl::StatusOr<std::unique_ptr<MeshReader>> OpenMesh(
       const ShapeRef& shape) const;
   // kGraphVersionMismatch.
   absl::StatusOr<ShapeGraphAnswer> GetGraph(const ShapeRef& shape,
                                             bool with_labels) const;
+
+  // --- long work, on the caller's thread and pool(); as RunItems -----------
+  // The collection, when its shapes can be described anew. kMeshNotStored.
+  absl::StatusOr<CollectionRecord> CheckReindex(std::string_view id) const;
+  // Describes the shapes that another version described anew from their
+  // meshes; a failure is of its shape, and it stays as it was. Searches go on.
+  // Items are shape ids. As CheckReindex, kIndexLoading.
+  absl::StatusOr<RunReport> Reindex(const std::string& collection,
+                                    const RunControl& control);
+  // Stores the mesh files below a folder of `source`. Items are their paths,
+  // which are their source_uri and make their ids. kFileUnreadable.
+  absl::StatusOr<RunReport> Import(const FolderImport& folder,
+                                   const ImportSource& source,
+                                   const RunControl& control);
 
   // --- search --------------------------------------------------------------
   // kIndexLoading, kGenerationNotReached, kMesh..., kGraphVersionMismatch,

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "absl/status/status.h"
@@ -26,6 +27,13 @@ class Engine::Parts {
         std::unique_ptr<MeshStore> engine_meshes);
 
   absl::Status CheckOpen() const;  // kDraining
+  // Index and meshes do without what the catalog has no more; its generation.
+  int64_t FollowDeletion(const std::string& collection,
+                         const ShapeDeleted& deleted);
+  // One item of Reindex.
+  absl::StatusOr<ItemOutcome> DescribeAnew(const CollectionRecord& collection,
+                                           const std::string& id,
+                                           const StopToken& stop);
 
   // In the order they are made; each may use those before it.
   const EngineOptions options;

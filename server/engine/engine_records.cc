@@ -175,9 +175,25 @@ absl::StatusOr<int64_t> Engine::DeleteShape(const ShapeRemoval& removal) {
                    absl::Now() + parts_->options.request_memory));
   ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
                            parts_->catalog->DeleteShape(request));
-  parts_->gallery.Follow(request.collection, deleted.collection_uid,
-                         deleted.generation, std::nullopt);
-  parts_->ingest.RemoveMeshes(deleted.unreferenced);
+  return parts_->FollowDeletion(request.collection, deleted);
+}
+
+absl::StatusOr<int64_t> Engine::DeleteShapes(
+    const std::string& collection, const std::vector<std::string>& ids) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  for (const std::string& id : ids) {
+    ARGMESH_RETURN_IF_ERROR(CheckShapeRef({collection, id}));
+  }
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
+                           parts_->catalog->DeleteShapes(collection, ids));
+  return parts_->FollowDeletion(collection, deleted);
+}
+
+int64_t Engine::Parts::FollowDeletion(const std::string& collection,
+                                      const ShapeDeleted& deleted) {
+  gallery.Follow(collection, deleted.collection_uid, deleted.generation,
+                 std::nullopt);
+  ingest.RemoveMeshes(deleted.unreferenced);
   return deleted.generation;
 }
 

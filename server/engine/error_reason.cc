@@ -43,6 +43,8 @@ constexpr ReasonEntry kReasons[] = {
     {ErrorReason::kMeshSizeMismatch, "MESH_SIZE_MISMATCH", kInvalid},
     {ErrorReason::kMeshDigestMismatch, "MESH_DIGEST_MISMATCH", kInvalid},
     {ErrorReason::kMeshNotStored, "MESH_NOT_STORED", kPrecondition},
+    {ErrorReason::kImportNotEnabled, "IMPORT_NOT_ENABLED", kPrecondition},
+    {ErrorReason::kFileUnreadable, "FILE_UNREADABLE", kPrecondition},
     {ErrorReason::kCollectionNotFound, "COLLECTION_NOT_FOUND",
      absl::StatusCode::kNotFound},
     {ErrorReason::kCollectionExists, "COLLECTION_EXISTS",

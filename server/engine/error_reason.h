@@ -34,6 +34,8 @@ enum class ErrorReason {
   kMeshSizeMismatch = 25,
   kMeshDigestMismatch = 26,
   kMeshNotStored = 27,
+  kImportNotEnabled = 28,
+  kFileUnreadable = 29,
 
   kCollectionNotFound = 40,
   kCollectionExists = 41,

@@ -277,6 +277,15 @@ absl::StatusOr<GallerySnapshotPtr> Gallery::Snapshot(
   return snapshot;
 }
 
+absl::StatusOr<std::vector<std::string>> Gallery::Outdated(
+    std::string_view collection) const {
+  ARGMESH_RETURN_IF_ERROR(Snapshot(collection, 0).status());
+  const SlotPtr slot = FindSlot(collection);
+  if (slot == nullptr) return CollectionNotFoundError(collection);
+  const std::lock_guard update(slot->update_mutex);
+  return slot->index.Outdated();
+}
+
 IndexState Gallery::state() const {
   const std::lock_guard lock(mutex_);
   return state_;

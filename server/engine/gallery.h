@@ -55,6 +55,10 @@ class Gallery {
   absl::StatusOr<GallerySnapshotPtr> Snapshot(std::string_view collection,
                                               int64_t min_generation) const;
 
+  // Ids of the shapes that another version described, ascending. As Snapshot.
+  absl::StatusOr<std::vector<std::string>> Outdated(
+      std::string_view collection) const;
+
   IndexState state() const;
   void Watch(std::function<void(IndexState)> watcher);
   absl::Status WaitUntilServing(const StopToken& stop) const;

@@ -10,6 +10,7 @@
 #include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/mesh_upload.h"
+#include "server/engine/query_resolver.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/request_stamp.h"
 #include "server/engine/surface_description.h"
@@ -65,6 +66,11 @@ struct Ingest::Searchable {
   MatchableGraph graph;
   PackedSignature signature;
   WindowWords words;
+};
+
+struct Ingest::Described {
+  ShapePut put;
+  Searchable searchable;
 };
 
 Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
@@ -171,13 +177,9 @@ absl::StatusOr<AddedShape> Ingest::Store(Source& source, const ShapePut& put,
   return added;
 }
 
-absl::StatusOr<AddedShape> Ingest::Analyze(const NewShape& shape,
-                                           const CollectionRecord& collection,
-                                           Source& source, RequestStamp request,
-                                           const StopToken& stop) {
-  if (source.staged != nullptr) {
-    ARGMESH_ASSIGN_OR_RETURN(source.bytes, source.staged->ReadAll());
-  }
+absl::StatusOr<Ingest::Described> Ingest::Describe(
+    const NewShape& shape, const CollectionRecord& collection,
+    const Source& source, const StopToken& stop) const {
   ARGMESH_ASSIGN_OR_RETURN(const AnalyzedMesh analyzed,
                            AnalyzeMesh(source.bytes, shape.format,
                                        collection.settings, options_, stop));
@@ -195,11 +197,33 @@ absl::StatusOr<AddedShape> Ingest::Analyze(const NewShape& shape,
   put.descriptors = std::move(surface.bytes);
   put.if_exists = shape.if_exists;
   put.etag = shape.etag;
-  put.request = std::move(request);
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  return Store(source, put,
-               {MatchableGraph(analyzed.computed.graph),
-                PackedSignature(surface.signature), std::move(surface.words)});
+  return Described{
+      std::move(put),
+      {MatchableGraph(analyzed.computed.graph),
+       PackedSignature(surface.signature), std::move(surface.words)}};
+}
+
+absl::Status Ingest::DescribeAnew(const CollectionRecord& collection,
+                                  const ShapeRecord& stored,
+                                  const StopToken& stop) {
+  Source source;
+  source.sha256 = stored.sha256;
+  ARGMESH_ASSIGN_OR_RETURN(source.bytes, ReadMeshFile(meshes_, stored));
+  NewShape shape;
+  shape.collection = stored.collection;
+  shape.id = stored.id;
+  shape.display_name = stored.display_name;
+  shape.source_uri = stored.source_uri;
+  shape.metadata = stored.metadata;
+  shape.format = stored.format;
+  shape.if_exists = IfExists::kReplace;
+  shape.etag = ShapeEtag(stored);
+  ARGMESH_ASSIGN_OR_RETURN(Described described,
+                           Describe(shape, collection, source, stop));
+  // The mesh is there and stays: the row that names it is replaced by one that
+  // does, or not at all.
+  return Commit(described.put, std::move(described.searchable)).status();
 }
 
 absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
@@ -225,7 +249,13 @@ absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
                         "this server computes %d",
                         collection.graph_version, kShapeGraphVersion));
   }
-  return Analyze(shape, collection, source, std::move(request), stop);
+  if (source.staged != nullptr) {
+    ARGMESH_ASSIGN_OR_RETURN(source.bytes, source.staged->ReadAll());
+  }
+  ARGMESH_ASSIGN_OR_RETURN(Described described,
+                           Describe(shape, collection, source, stop));
+  described.put.request = std::move(request);
+  return Store(source, described.put, std::move(described.searchable));
 }
 
 }  // namespace argmesh

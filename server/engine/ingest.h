@@ -32,6 +32,11 @@ class Ingest {
   absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
                                       const StopToken& stop);
 
+  // Describes a stored shape anew from its mesh, unless the shape has changed
+  // meanwhile. kMeshNotStored, kEtagMismatch, kShapeNotFound.
+  absl::Status DescribeAnew(const CollectionRecord& collection,
+                            const ShapeRecord& stored, const StopToken& stop);
+
   // Removes meshes that rows no longer name. What cannot be removed now is
   // left to the sweep of the next start.
   void RemoveMeshes(const std::vector<Sha256Digest>& unreferenced);
@@ -41,16 +46,17 @@ class Ingest {
  private:
   struct Source;      // bytes and what is known of them
   struct Searchable;  // what the index takes of a shape
+  struct Described;   // what the catalog and the index take of it
 
   absl::StatusOr<Source> Open(const NewShape& shape, MeshSource mesh) const;
   absl::StatusOr<std::optional<AddedShape>> FindStored(
       const NewShape& shape, const Sha256Digest& sha256,
       const RequestStamp& request) const;
   absl::StatusOr<MeshPin> PublishMesh(Source& source);
-  absl::StatusOr<AddedShape> Analyze(const NewShape& shape,
+  absl::StatusOr<Described> Describe(const NewShape& shape,
                                      const CollectionRecord& collection,
-                                     Source& source, RequestStamp request,
-                                     const StopToken& stop);
+                                     const Source& source,
+                                     const StopToken& stop) const;
   absl::StatusOr<AddedShape> Store(Source& source, const ShapePut& put,
                                    Searchable searchable);
   absl::StatusOr<AddedShape> Commit(const ShapePut& put, Searchable searchable);

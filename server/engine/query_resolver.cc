@@ -119,17 +119,23 @@ absl::Status MeshNotStoredError(const ShapeRecord& record) {
       Which(record));
 }
 
-absl::StatusOr<TriangleMesh> QueryResolver::ReadMesh(
-    const ShapeRecord& record) const {
+absl::StatusOr<std::string> ReadMeshFile(const MeshStore& meshes,
+                                         const ShapeRecord& record) {
   if (!record.mesh_stored) return MeshNotStoredError(record);
   ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<MeshReader> reader,
-                           meshes_.Open(record.sha256));
+                           meshes.Open(record.sha256));
   std::string bytes;
   while (true) {
     ARGMESH_ASSIGN_OR_RETURN(const std::string piece, reader->Read(kReadBytes));
-    if (piece.empty()) break;
+    if (piece.empty()) return bytes;
     bytes += piece;
   }
+}
+
+absl::StatusOr<TriangleMesh> QueryResolver::ReadMesh(
+    const ShapeRecord& record) const {
+  ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
+                           ReadMeshFile(meshes_, record));
   absl::StatusOr<ParsedMesh> parsed =
       ParseMesh(bytes, record.format, options_.mesh_limits);
   if (!parsed.ok()) return DamagedError(record, parsed.status());

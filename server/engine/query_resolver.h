@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -76,6 +77,10 @@ absl::StatusOr<ShapeGraph> ParseStoredGraph(const StoredGraph& stored);
 
 // kMeshNotStored.
 absl::Status MeshNotStoredError(const ShapeRecord& record);
+
+// The bytes of a stored shape's file. kMeshNotStored, kStoredDataDamaged.
+absl::StatusOr<std::string> ReadMeshFile(const MeshStore& meshes,
+                                         const ShapeRecord& record);
 
 }  // namespace argmesh
 

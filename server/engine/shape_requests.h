@@ -45,6 +45,13 @@ struct NewShape {
   RequestKey request;
 };
 
+// Of a folder's files, as shapes.
+struct FolderImport {
+  std::string collection;
+  std::string folder;  // of an ImportSource
+  IfExists if_exists = IfExists::kFail;
+};
+
 struct AddedShape {
   ShapeRecord record;
   bool already_stored = false;  // by an earlier call; nothing was written

@@ -18,12 +18,6 @@ namespace {
 
 constexpr char kSnapshotList[] = "snapshots";
 
-google::protobuf::Any Packed(const google::protobuf::Message& message) {
-  google::protobuf::Any any;
-  any.PackFrom(message);
-  return any;
-}
-
 absl::Status ListPage(const StoreAdmin& store,
                       const v1::ListSnapshotsRequest& request,
                       v1::ListSnapshotsResponse* response) {
@@ -105,21 +99,22 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
     const v1::CreateSnapshotRequest* request,
     google::longrunning::Operation* response) {
   static constexpr char kMethod[] = "AdminService.CreateSnapshot";
-  return Serve(context, request, kMethod,
-               [this, request, response](StoreAdmin& store) -> absl::Status {
-                 const std::string id = request->snapshot_id();
-                 ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
-                 const auto work = [&store, id](const StopToken& stop)
-                     -> absl::StatusOr<google::protobuf::Any> {
-                   ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
-                                            store.CreateSnapshot(id, stop));
-                   return Packed(ToProto(record));
-                 };
-                 ARGMESH_ASSIGN_OR_RETURN(*response,
-                                          environment_.operations.Start(
-                                              kMethod, SnapshotName(id), work));
-                 return absl::OkStatus();
-               });
+  return Serve(
+      context, request, kMethod,
+      [this, request, response](StoreAdmin& store) -> absl::Status {
+        const std::string id = request->snapshot_id();
+        ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
+        const auto work = [&store, id](const RunControl& control)
+            -> absl::StatusOr<google::protobuf::Any> {
+          ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
+                                   store.CreateSnapshot(id, control.stop));
+          return Packed(ToProto(record));
+        };
+        ARGMESH_ASSIGN_OR_RETURN(
+            *response,
+            environment_.operations.Start(kMethod, SnapshotName(id), work));
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::GetSnapshot(
@@ -177,10 +172,10 @@ grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
           return FieldInvalid("collection",
                               "not served by this version; leave it empty");
         }
-        const auto work = [&store](const StopToken& stop)
+        const auto work = [&store](const RunControl& control)
             -> absl::StatusOr<google::protobuf::Any> {
           ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
-                                   store.Verify(stop));
+                                   store.Verify(control.stop));
           return Packed(ToProto(report));
         };
         ARGMESH_ASSIGN_OR_RETURN(

@@ -4,8 +4,10 @@
 
 #include "core/base/status_macros.h"
 #include "server/rpc/convert_collection.h"
+#include "server/rpc/convert_run.h"
 #include "server/rpc/convert_update.h"
 #include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
 #include "server/rpc/unary_reactor.h"
 
 namespace argmesh {
@@ -104,9 +106,30 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(
 grpc::ServerUnaryReactor* CollectionServiceImpl::ReindexCollection(
     grpc::CallbackServerContext* context,
     const v1::ReindexCollectionRequest* request,
-    google::longrunning::Operation*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "CollectionService.ReindexCollection");
+    google::longrunning::Operation* response) {
+  static constexpr char kMethod[] = "CollectionService.ReindexCollection";
+  return UnaryReactor::Start(
+      environment_, context, request, {kMethod},
+      [this, request, response](const UnaryCall&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                                 ParseCollectionName("name", request->name()));
+        if (request->has_settings()) {
+          return FieldInvalid("settings",
+                              "not served by this version; leave it out");
+        }
+        Engine& engine = environment_.engine;
+        ARGMESH_RETURN_IF_ERROR(engine.CheckReindex(id).status());
+        const auto work = [&engine, id](const RunControl& control)
+            -> absl::StatusOr<google::protobuf::Any> {
+          ARGMESH_ASSIGN_OR_RETURN(const RunReport report,
+                                   engine.Reindex(id, control));
+          return Packed(ReindexAnswer(id, report));
+        };
+        ARGMESH_ASSIGN_OR_RETURN(
+            *response,
+            environment_.operations.Start(kMethod, request->name(), work));
+        return absl::OkStatus();
+      });
 }
 
 }  // namespace argmesh

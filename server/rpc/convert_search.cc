@@ -12,6 +12,7 @@
 #include "server/rpc/convert_match.h"
 #include "server/rpc/convert_mesh.h"
 #include "server/rpc/convert_shape.h"
+#include "server/rpc/convert_upload.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/service_environment.h"
 #include "server/rpc/status.h"
@@ -121,9 +122,23 @@ v1::ComparedGraph ToProto(const QueryGraph& query, int64_t budget) {
   return out;
 }
 
-}  // namespace
+// What was found in the query.
+template <typename Response>
+void FillQuery(const SearchAnswer& answer, const SearchAnswerForm& form,
+               Response* out) {
+  out->set_query_generic(answer.query_generic);
+  if (!answer.query_graph) return;
+  const QueryGraph& query = *answer.query_graph;
+  if (query.report.faces > 0) {
+    *out->mutable_query_report() = ToProto(query.report);
+  }
+  if (!form.query_graph) return;
+  *out->mutable_query_graph() = ToProto(query.graph);
+  AddLabels(query, form.max_bytes / 2, out->mutable_query_face_labels());
+}
 
-absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
+// All but the query itself.
+absl::StatusOr<SearchQuery> SettingsOf(const v1::SearchShapesRequest& request) {
   SearchQuery query;
   ARGMESH_ASSIGN_OR_RETURN(query.collection,
                            ParseCollectionName("parent", request.parent()));
@@ -150,8 +165,33 @@ absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
   query.correspondence = !request.omit_component_pairs();
   query.query_graph = request.return_query_graph() || request.has_mesh();
   query.min_generation = request.min_generation();
+  return query;
+}
+
+}  // namespace
+
+absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request) {
+  ARGMESH_ASSIGN_OR_RETURN(SearchQuery query, SettingsOf(request));
   ARGMESH_ASSIGN_OR_RETURN(query.query, QueryOf(request));
   return query;
+}
+
+absl::StatusOr<AnnouncedSearch> FromProto(
+    const v1::StreamSearchShapesHeader& header) {
+  if (header.search().query_case() != v1::SearchShapesRequest::QUERY_NOT_SET) {
+    return FieldInvalid("header.search", "has a query beside the chunks");
+  }
+  AnnouncedSearch announced;
+  ARGMESH_ASSIGN_OR_RETURN(announced.query, SettingsOf(header.search()));
+  announced.query.query_graph = true;
+  MeshBytes mesh;
+  ARGMESH_ASSIGN_OR_RETURN(mesh.format,
+                           FromProto("header.format", header.format()));
+  announced.query.query = std::move(mesh);
+  ARGMESH_ASSIGN_OR_RETURN(
+      announced.upload,
+      ParseAnnouncement("header.", header.size_bytes(), header.sha256()));
+  return announced;
 }
 
 absl::StatusOr<CompareQuery> FromProto(
@@ -175,28 +215,28 @@ absl::StatusOr<CompareQuery> FromProto(
   return query;
 }
 
+v1::Match ToProto(const SearchMatch& found, const SearchAnswerForm& form) {
+  v1::Match match = ToProto(found);
+  *match.mutable_shape() = ToProto(found.shape);
+  if (form.explain) *match.mutable_explanation() = Explain(found, form.mode);
+  return match;
+}
+
+v1::StreamedQuery QueryToProto(const SearchAnswer& answer,
+                               const SearchAnswerForm& form) {
+  v1::StreamedQuery out;
+  FillQuery(answer, form, &out);
+  return out;
+}
+
 v1::SearchShapesResponse ToProto(const SearchAnswer& answer,
                                  const SearchAnswerForm& form) {
   v1::SearchShapesResponse out;
   *out.mutable_stats() = ToProto(answer.stats);
-  out.set_query_generic(answer.query_generic);
-  if (answer.query_graph) {
-    const QueryGraph& query = *answer.query_graph;
-    if (query.report.faces > 0) {
-      *out.mutable_query_report() = ToProto(query.report);
-    }
-    if (form.query_graph) {
-      *out.mutable_query_graph() = ToProto(query.graph);
-      AddLabels(query, form.max_bytes / 2, out.mutable_query_face_labels());
-    }
-  }
+  FillQuery(answer, form, &out);
   auto left = form.max_bytes - static_cast<int64_t>(out.ByteSizeLong());
   for (const SearchMatch& found : answer.matches) {
-    v1::Match match = ToProto(found);
-    *match.mutable_shape() = ToProto(found.shape);
-    if (form.explain) {
-      *match.mutable_explanation() = Explain(found, form.mode);
-    }
+    v1::Match match = ToProto(found, form);
     // Tag and length of a message in a field take at most 6 bytes.
     left -= static_cast<int64_t>(match.ByteSizeLong()) + 6;
     if (left < 0) {

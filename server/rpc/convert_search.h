@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "argmesh/v1/search_service.pb.h"
+#include "server/engine/mesh_upload.h"
 #include "server/engine/search_requests.h"
 
 namespace argmesh {
@@ -13,6 +14,14 @@ namespace argmesh {
 // FIELD_INVALID, FIELD_REQUIRED, NAME_INVALID, GRAPH_INVALID,
 // GRAPH_VERSION_MISMATCH.
 absl::StatusOr<SearchQuery> FromProto(const v1::SearchShapesRequest& request);
+
+// The query is a MeshBytes without its bytes. As above.
+struct AnnouncedSearch {
+  SearchQuery query;
+  UploadAnnouncement upload;
+};
+absl::StatusOr<AnnouncedSearch> FromProto(
+    const v1::StreamSearchShapesHeader& header);
 
 // As above.
 absl::StatusOr<CompareQuery> FromProto(const v1::CompareShapesRequest& request);
@@ -29,6 +38,11 @@ struct SearchAnswerForm {
 // the worst first, matches that would pass it, and `truncated` says so.
 v1::SearchShapesResponse ToProto(const SearchAnswer& answer,
                                  const SearchAnswerForm& form);
+
+// The query alone, and one match alone.
+v1::StreamedQuery QueryToProto(const SearchAnswer& answer,
+                               const SearchAnswerForm& form);
+v1::Match ToProto(const SearchMatch& found, const SearchAnswerForm& form);
 
 // Without the target's shape.
 v1::CompareShapesResponse ToProto(const ComparedShapes& compared,

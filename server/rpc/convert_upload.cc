@@ -35,20 +35,28 @@ absl::Status CopyAnnouncement(const std::string& prefix, const Message& message,
   ARGMESH_RETURN_IF_ERROR(CopyCommon(prefix, message, &out->shape));
   ARGMESH_ASSIGN_OR_RETURN(out->shape.format,
                            FromProto(prefix + "format", message.format()));
-  ARGMESH_ASSIGN_OR_RETURN(const Sha256Digest sha256,
-                           ParseSha256(prefix + "sha256", message.sha256()));
-  if (message.size_bytes() <= 0) {
-    return FieldInvalid(
-        prefix + "size_bytes",
-        absl::StrFormat("%d, but a mesh has bytes", message.size_bytes()));
-  }
-  out->shape.sha256 = sha256;
-  out->upload.size_bytes = message.size_bytes();
-  out->upload.sha256 = sha256;
+  ARGMESH_ASSIGN_OR_RETURN(
+      out->upload,
+      ParseAnnouncement(prefix, message.size_bytes(), message.sha256()));
+  out->shape.sha256 = out->upload.sha256;
   return absl::OkStatus();
 }
 
 }  // namespace
+
+absl::StatusOr<UploadAnnouncement> ParseAnnouncement(
+    const std::string& prefix, int64_t size_bytes, const std::string& sha256) {
+  UploadAnnouncement upload;
+  ARGMESH_ASSIGN_OR_RETURN(upload.sha256,
+                           ParseSha256(prefix + "sha256", sha256));
+  if (size_bytes <= 0) {
+    return FieldInvalid(
+        prefix + "size_bytes",
+        absl::StrFormat("%d, but a mesh has bytes", size_bytes));
+  }
+  upload.size_bytes = size_bytes;
+  return upload;
+}
 
 absl::StatusOr<NewShape> FromProto(const v1::CreateShapeRequest& request) {
   NewShape shape;

@@ -2,6 +2,8 @@
 #ifndef ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_
 #define ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "absl/status/statusor.h"
@@ -14,6 +16,11 @@ namespace argmesh {
 
 // NAME_INVALID, FIELD_REQUIRED, FIELD_INVALID; the engine checks the rest.
 absl::StatusOr<NewShape> FromProto(const v1::CreateShapeRequest& request);
+
+// `prefix` is where the fields are: "header." or "item.".
+absl::StatusOr<UploadAnnouncement> ParseAnnouncement(const std::string& prefix,
+                                                     int64_t size_bytes,
+                                                     const std::string& sha256);
 
 struct AnnouncedShape {
   NewShape shape;

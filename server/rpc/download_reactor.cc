@@ -15,6 +15,10 @@ DownloadReactor::DownloadReactor(ServiceEnvironment& environment,
                      "ShapeService.DownloadMesh"),
       request_(request) {}
 
+void DownloadReactor::Begin() {
+  Run(WorkClass::kQuick, [this] { SendNext(); });
+}
+
 absl::Status DownloadReactor::Open(v1::DownloadMeshResponse& first) {
   ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
                            ParseShapeName("name", request_->name()));
@@ -36,6 +40,10 @@ absl::Status DownloadReactor::Open(v1::DownloadMeshResponse& first) {
 }
 
 absl::StatusOr<bool> DownloadReactor::Continue(v1::DownloadMeshResponse& next) {
+  if (reader_ == nullptr) {
+    ARGMESH_RETURN_IF_ERROR(Open(next));
+    return true;
+  }
   ARGMESH_ASSIGN_OR_RETURN(std::string chunk,
                            reader_->Read(kDownloadChunkBytes));
   if (chunk.empty()) return false;

@@ -17,10 +17,12 @@ class DownloadReactor final : public WritingReactor<v1::DownloadMeshResponse> {
                   const v1::DownloadMeshRequest* request);
 
  protected:
-  absl::Status Open(v1::DownloadMeshResponse& first) override;
+  void Begin() override;
   absl::StatusOr<bool> Continue(v1::DownloadMeshResponse& next) override;
 
  private:
+  absl::Status Open(v1::DownloadMeshResponse& first);
+
   const v1::DownloadMeshRequest* const request_;
   std::unique_ptr<MeshReader> reader_;
 };

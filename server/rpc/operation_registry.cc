@@ -40,6 +40,12 @@ void SetMetadata(Operation& operation,
 
 }  // namespace
 
+Any Packed(const google::protobuf::Message& message) {
+  Any any;
+  any.PackFrom(message);
+  return any;
+}
+
 OperationRegistry::~OperationRegistry() {
   CancelAll();
   std::unique_lock lock(mutex_);
@@ -89,11 +95,22 @@ void OperationRegistry::Run(const std::shared_ptr<Entry>& entry,
                             const Work& work) {
   absl::StatusOr<Any> result = absl::CancelledError();
   try {
-    result = work(StopToken(entry->stop.get_token(), absl::InfiniteFuture()));
+    result =
+        work({StopToken(entry->stop.get_token(), absl::InfiniteFuture()),
+              [&](const RunProgress& progress) { Report(*entry, progress); }});
   } catch (...) {
     result = CallScope::CurrentException();
   }
   End(*entry, result);
+}
+
+void OperationRegistry::Report(Entry& entry, const RunProgress& progress) {
+  const std::lock_guard lock(mutex_);
+  SetMetadata(entry.operation, [&](v1::OperationMetadata& metadata) {
+    metadata.set_items(progress.items);
+    metadata.set_items_done(progress.done);
+    metadata.set_items_failed(progress.failed);
+  });
 }
 
 void OperationRegistry::End(Entry& entry, const absl::StatusOr<Any>& result) {

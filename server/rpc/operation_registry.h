@@ -20,20 +20,22 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/base/stop_token.h"
 #include "google/longrunning/operations.pb.h"
+#include "server/engine/item_run.h"
 #include "server/telemetry/event_log.h"
 
 namespace argmesh {
+
+google::protobuf::Any Packed(const google::protobuf::Message& message);
 
 class OperationRegistry {
  public:
   static constexpr size_t kMaxRunning = 4;
   static constexpr size_t kMaxKept = 1000;
 
-  // The response, packed.
+  // The response, packed. What it reports is in the operation's metadata.
   using Work =
-      std::function<absl::StatusOr<google::protobuf::Any>(const StopToken&)>;
+      std::function<absl::StatusOr<google::protobuf::Any>(const RunControl&)>;
 
   // How operations end goes to `log`, which must outlive the registry.
   explicit OperationRegistry(EventLog& log) : log_(log) {}
@@ -63,6 +65,7 @@ class OperationRegistry {
   };
 
   void Run(const std::shared_ptr<Entry>& entry, const Work& work);
+  void Report(Entry& entry, const RunProgress& progress);
   void End(Entry& entry, const absl::StatusOr<google::protobuf::Any>& result);
   std::shared_ptr<Entry> Find(std::string_view id) const;  // with the mutex
   void DropOldest();                                       // with the mutex

@@ -125,6 +125,7 @@ class RpcServer::Impl {
         operations_(environment_) {
     environment_.access.SetKeys(options.keys);
     environment_.store_admin = options.store_admin;
+    environment_.import_source = options.import_source;
   }
 
   ~Impl() { Shutdown(absl::Now()); }

@@ -43,6 +43,8 @@ struct RpcServerOptions {
   bool reflection = true;
   // Must outlive the server; none: snapshots and verification are not served.
   StoreAdmin* store_admin = nullptr;
+  // Must outlive the server; none: imports are refused.
+  const ImportSource* import_source = nullptr;
   std::string version;
   ServiceLimits limits;
 };

@@ -23,6 +23,7 @@ inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
 
 inline constexpr int kMaxPageSize = 1000;
+inline constexpr int kMaxBatchSearches = 100;
 
 struct ServiceLimits {
   int max_inflight_searches = 64;  // >= 1; also comparisons
@@ -69,7 +70,8 @@ struct ServiceEnvironment {
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
-  StoreAdmin* store_admin = nullptr;  // none: its rpcs are not served
+  StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served
+  const ImportSource* import_source = nullptr;  // none: IMPORT_NOT_ENABLED
   OperationRegistry operations;
   AccessControl access;
 };

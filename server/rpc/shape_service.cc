@@ -1,7 +1,9 @@
 #include "server/rpc/shape_service.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/base/status_macros.h"
@@ -37,10 +39,9 @@ absl::Status List(const Engine& engine, const v1::ListShapesRequest& request,
   return absl::OkStatus();
 }
 
-absl::Status BatchGet(const Engine& engine,
-                      const v1::BatchGetShapesRequest& request,
-                      const StopToken& stop,
-                      v1::BatchGetShapesResponse* response) {
+// The shapes that a batch names: 1 .. kMaxPageSize, all of `parent`.
+template <typename Request>
+absl::StatusOr<std::vector<ShapeRef>> NamedShapes(const Request& request) {
   ARGMESH_ASSIGN_OR_RETURN(const std::string collection,
                            ParseCollectionName("parent", request.parent()));
   if (request.names().empty()) return FieldRequired("names");
@@ -49,14 +50,26 @@ absl::Status BatchGet(const Engine& engine,
                         absl::StrFormat("%d names, the limit is %d",
                                         request.names_size(), kMaxPageSize));
   }
-  int64_t bytes = 0;
+  std::vector<ShapeRef> shapes;
   for (const std::string& name : request.names()) {
-    ARGMESH_RETURN_IF_ERROR(stop.Check());
-    ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
-                             ParseShapeName("names", name));
+    ARGMESH_ASSIGN_OR_RETURN(ShapeRef shape, ParseShapeName("names", name));
     if (shape.collection != collection) {
       return FieldInvalid("names", name + " is not of " + request.parent());
     }
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+absl::Status BatchGet(const Engine& engine,
+                      const v1::BatchGetShapesRequest& request,
+                      const StopToken& stop,
+                      v1::BatchGetShapesResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
+                           NamedShapes(request));
+  int64_t bytes = 0;
+  for (const ShapeRef& shape : shapes) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record, engine.GetShape(shape));
     v1::Shape& added = *response->add_shapes();
     added = ToProto(record);
@@ -66,6 +79,26 @@ absl::Status BatchGet(const Engine& engine,
                        "the shapes do not fit in one answer: ask for fewer");
     }
   }
+  return absl::OkStatus();
+}
+
+absl::Status BatchDelete(Engine& engine,
+                         const v1::BatchDeleteShapesRequest& request,
+                         const StopToken& stop,
+                         v1::BatchDeleteShapesResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
+                           NamedShapes(request));
+  std::vector<std::string> ids;
+  for (const ShapeRef& shape : shapes) ids.push_back(shape.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) {
+    return FieldInvalid("names", *twice + " is named twice");
+  }
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
+                           engine.DeleteShapes(shapes.front().collection, ids));
+  response->set_generation(generation);
   return absl::OkStatus();
 }
 
@@ -165,9 +198,12 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(
     grpc::CallbackServerContext* context,
     const v1::BatchDeleteShapesRequest* request,
-    v1::BatchDeleteShapesResponse*) {
-  return UnaryReactor::NotServed(environment_, context, request,
-                                 "ShapeService.BatchDeleteShapes");
+    v1::BatchDeleteShapesResponse* response) {
+  return UnaryReactor::Start(
+      environment_, context, request, {"ShapeService.BatchDeleteShapes"},
+      [this, request, response](const UnaryCall& call) {
+        return BatchDelete(environment_.engine, *request, call.stop, response);
+      });
 }
 
 grpc::ServerWriteReactor<v1::DownloadMeshResponse>*

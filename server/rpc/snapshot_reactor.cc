@@ -16,6 +16,10 @@ SnapshotReactor::SnapshotReactor(ServiceEnvironment& environment,
                      "AdminService.DownloadSnapshot"),
       request_(request) {}
 
+void SnapshotReactor::Begin() {
+  Run(WorkClass::kQuick, [this] { SendNext(); });
+}
+
 absl::Status SnapshotReactor::Open(v1::DownloadSnapshotResponse& first) {
   StoreAdmin* store = environment().store_admin;
   if (store == nullptr) return MethodNotServed("AdminService.DownloadSnapshot");
@@ -28,6 +32,10 @@ absl::Status SnapshotReactor::Open(v1::DownloadSnapshotResponse& first) {
 
 absl::StatusOr<bool> SnapshotReactor::Continue(
     v1::DownloadSnapshotResponse& next) {
+  if (reader_ == nullptr) {
+    ARGMESH_RETURN_IF_ERROR(Open(next));
+    return true;
+  }
   ARGMESH_ASSIGN_OR_RETURN(std::string chunk,
                            reader_->Read(kDownloadChunkBytes));
   if (chunk.empty()) return false;

@@ -18,10 +18,12 @@ class SnapshotReactor final
                   const v1::DownloadSnapshotRequest* request);
 
  protected:
-  absl::Status Open(v1::DownloadSnapshotResponse& first) override;
+  void Begin() override;
   absl::StatusOr<bool> Continue(v1::DownloadSnapshotResponse& next) override;
 
  private:
+  absl::Status Open(v1::DownloadSnapshotResponse& first);
+
   const v1::DownloadSnapshotRequest* const request_;
   std::unique_ptr<SnapshotReader> reader_;
 };

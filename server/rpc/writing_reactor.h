@@ -1,5 +1,5 @@
-// The base of reactors that answer with a stream of chunks: one message after
-// the other, made on the pool, and it is noticed when nobody takes them.
+// The base of reactors that answer with a stream: one message after the other,
+// made on the pool, and it is noticed when nobody takes them.
 //
 // Holds one message at a time.
 #ifndef ARGMESH_SERVER_RPC_WRITING_REACTOR_H_
@@ -18,11 +18,12 @@ namespace argmesh {
 // Of one message's chunk.
 inline constexpr int64_t kDownloadChunkBytes = 256 << 10;
 
-template <typename Response>
-class WritingReactor
-    : public GuardedReactor<grpc::ServerWriteReactor<Response>> {
+// `Base` is a GuardedReactor whose calls can write.
+template <typename Response,
+          typename Base = GuardedReactor<grpc::ServerWriteReactor<Response>>>
+class WritingReactor : public Base {
  public:
-  using GuardedReactor<grpc::ServerWriteReactor<Response>>::GuardedReactor;
+  using Base::Base;
 
   void OnWriteDone(bool ok) final {
     this->Guard([&] {
@@ -39,6 +40,7 @@ class WritingReactor
   }
 
   void OnTick(absl::Time now) final {
+    Base::OnTick(now);
     this->ResubmitWaiting();
     const std::lock_guard lock(this->scope().mutex());
     // A write that nobody takes blocks the end of the call too: only a
@@ -49,22 +51,10 @@ class WritingReactor
   }
 
  protected:
-  // The first message, on the pool.
-  virtual absl::Status Open(Response& first) = 0;
-  // The next one; false when there is none.
+  // Makes the next message, on the pool; false when there is none.
   virtual absl::StatusOr<bool> Continue(Response& next) = 0;
 
-  void Begin() final {
-    this->Run(WorkClass::kQuick, [this] {
-      if (const absl::Status opened = Open(response_); !opened.ok()) {
-        this->FinishOnce(opened);
-      } else {
-        Send();
-      }
-    });
-  }
-
- private:
+  // Once, on the pool: the first message; the others follow.
   void SendNext() {
     const absl::StatusOr<bool> more = Continue(response_);
     if (more.ok() && *more) {
@@ -74,6 +64,7 @@ class WritingReactor
     }
   }
 
+ private:
   void Send() {
     const std::lock_guard lock(this->scope().mutex());
     if (this->scope().finished()) return;

@@ -50,6 +50,9 @@ class SqliteCatalog : public Catalog {
   absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) override;
   absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) override;
   absl::StatusOr<ShapeDeleted> DeleteShape(const ShapeDelete& removal) override;
+  absl::StatusOr<ShapeDeleted> DeleteShapes(
+      std::string_view collection,
+      const std::vector<std::string>& ids) override;
   absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                        std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeRecord>> ListShapes(

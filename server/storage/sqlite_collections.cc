@@ -57,10 +57,12 @@ absl::StatusOr<CollectionRecord> Update(SqliteConnection& connection,
   ARGMESH_RETURN_IF_ERROR(
       connection
           .Run("UPDATE collection SET display_name = ?, metadata_keys = ?, "
-               "update_us = ?, revision = revision + 1 WHERE id = ?",
+               "graph_version = ?, update_us = ?, revision = revision + 1 "
+               "WHERE id = ?",
                patch.display_name.value_or(row.record.display_name),
-               SqliteBlob(keys), absl::ToUnixMicros(patch.update_time),
-               row.number)
+               SqliteBlob(keys),
+               patch.graph_version.value_or(row.record.graph_version),
+               absl::ToUnixMicros(patch.update_time), row.number)
           .status());
   ARGMESH_ASSIGN_OR_RETURN(CollectionRow updated,
                            FindCollectionRow(connection, patch.id));

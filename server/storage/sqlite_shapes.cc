@@ -263,6 +263,27 @@ absl::StatusOr<ShapeWritten> Patch(SqliteConnection& connection,
   return ShapeWritten{std::move(record), collection.record.uid, true, {}};
 }
 
+absl::StatusOr<ShapeDeleted> DeleteOne(SqliteConnection& connection,
+                                       const CollectionRow& collection,
+                                       const std::string& id,
+                                       const std::string& etag) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<ShapeRow> stored,
+                           FindShapeRow(connection, collection.number, id));
+  if (!stored) return ShapeNotFoundError(collection.record.id, id);
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(etag, ShapeEtag(stored->record)));
+  ShapeDeleted deleted;
+  deleted.collection_uid = collection.record.uid;
+  ARGMESH_ASSIGN_OR_RETURN(deleted.generation,
+                           LogChange(connection, collection.number, id,
+                                     ShapeChange::Kind::kDelete, -1));
+  ARGMESH_RETURN_IF_ERROR(
+      connection.Run("DELETE FROM shape WHERE id = ?", stored->number)
+          .status());
+  ARGMESH_ASSIGN_OR_RETURN(deleted.unreferenced,
+                           DropMesh(connection, stored->record));
+  return deleted;
+}
+
 absl::StatusOr<ShapeDeleted> Delete(SqliteConnection& connection,
                                     const ShapeDelete& removal) {
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
@@ -271,23 +292,27 @@ absl::StatusOr<ShapeDeleted> Delete(SqliteConnection& connection,
   ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
                            FindCollectionRow(connection, removal.collection));
   ARGMESH_ASSIGN_OR_RETURN(
-      const std::optional<ShapeRow> stored,
-      FindShapeRow(connection, collection.number, removal.id));
-  if (!stored) return ShapeNotFoundError(removal.collection, removal.id);
-  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, ShapeEtag(stored->record)));
-  ShapeDeleted deleted;
-  deleted.collection_uid = collection.record.uid;
-  ARGMESH_ASSIGN_OR_RETURN(deleted.generation,
-                           LogChange(connection, collection.number, removal.id,
-                                     ShapeChange::Kind::kDelete, -1));
-  ARGMESH_RETURN_IF_ERROR(
-      connection.Run("DELETE FROM shape WHERE id = ?", stored->number)
-          .status());
-  ARGMESH_ASSIGN_OR_RETURN(deleted.unreferenced,
-                           DropMesh(connection, stored->record));
+      ShapeDeleted deleted,
+      DeleteOne(connection, collection, removal.id, removal.etag));
   ARGMESH_RETURN_IF_ERROR(RememberRequest(connection, removal.request,
                                           SerializeShapeDeleted(deleted)));
   return deleted;
+}
+
+absl::StatusOr<ShapeDeleted> DeleteAll(SqliteConnection& connection,
+                                       std::string_view collection,
+                                       const std::vector<std::string>& ids) {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
+                           FindCollectionRow(connection, collection));
+  ShapeDeleted all{row.record.uid, row.record.generation, {}};
+  for (const std::string& id : ids) {
+    ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted one,
+                             DeleteOne(connection, row, id, ""));
+    all.generation = one.generation;
+    all.unreferenced.insert(all.unreferenced.end(), one.unreferenced.begin(),
+                            one.unreferenced.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -330,6 +355,17 @@ absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShape(
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
         deleted = Delete(connection, removal);
+        return deleted.status();
+      }));
+  return deleted;
+}
+
+absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShapes(
+    std::string_view collection, const std::vector<std::string>& ids) {
+  absl::StatusOr<ShapeDeleted> deleted;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+        deleted = DeleteAll(connection, collection, ids);
         return deleted.status();
       }));
   return deleted;

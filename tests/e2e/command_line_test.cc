@@ -153,6 +153,22 @@ TEST_F(CommandLineTest, FindsAStoredShapeFirstByItsFile) {
   }
 }
 
+TEST_F(CommandLineTest, SearchesByAFileLargerThanAMessage) {
+  const std::string padding(5 << 20, '\n');
+  installation_->WriteFile(
+      "large.off",
+      installation_->ReadFile("meshes/wrench/wrench-02.off") + padding);
+  const CommandOutcome outcome =
+      Run({"search", "--collection", "demo", "--limit", "3", "--json",
+           Path("large.off")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const OrderedJson json = outcome.Json();
+  ASSERT_EQ(json["matches"].size(), 3U);
+  EXPECT_EQ(json["matches"][0]["source_uri"], "wrench/wrench-02.off");
+  EXPECT_EQ(json["stats"]["shapes_considered"], 8);
+  EXPECT_EQ(json["truncated"], false);
+}
+
 TEST_F(CommandLineTest, FiltersByDeclaredMetadata) {
   const Words list = {"list",     "--collection",  "demo",
                       "--filter", "class = table", "--json"};

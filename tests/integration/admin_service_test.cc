@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "tests/integration/operation_wait.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -29,18 +30,8 @@ class AdminServiceTest : public ::testing::Test {
     return server_.admin().CreateSnapshot(&context, request, operation);
   }
 
-  // The operation once it is done.
   Operation Wait(const std::string& name) {
-    grpc::ClientContext context;
-    google::longrunning::WaitOperationRequest request;
-    request.set_name(name);
-    request.mutable_timeout()->set_seconds(60);
-    Operation operation;
-    const grpc::Status status =
-        server_.operations().WaitOperation(&context, request, &operation);
-    EXPECT_TRUE(status.ok()) << ErrorOf(status);
-    EXPECT_TRUE(operation.done());
-    return operation;
+    return WaitForOperation(server_, name);
   }
 
   v1::Snapshot MakeSnapshot(const std::string& id) {

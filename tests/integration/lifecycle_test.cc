@@ -133,32 +133,6 @@ TEST(Lifecycle, TellsWhatItIsAndWhatItTakes) {
   EXPECT_FALSE(info.draining());
 }
 
-template <typename Request, typename Response, typename Stub>
-void ExpectNotServed(Stub& stub,
-                     grpc::Status (Stub::*method)(grpc::ClientContext*,
-                                                  const Request&, Response*)) {
-  grpc::ClientContext context;
-  Response response;
-  const grpc::Status status = (stub.*method)(&context, Request(), &response);
-  EXPECT_FAILS(status, UNIMPLEMENTED, "METHOD_NOT_SERVED");
-  EXPECT_THAT(status.error_message(), HasSubstr("not served"));
-}
-
-TEST(Lifecycle, SaysWhichMethodsAreNotServed) {
-  TestServer server;
-  server.Start();
-  ExpectNotServed(server.collections(),
-                  &v1::CollectionService::Stub::ReindexCollection);
-  ExpectNotServed(server.shapes(), &v1::ShapeService::Stub::BatchDeleteShapes);
-  ExpectNotServed(server.ingest(), &v1::IngestService::Stub::ImportShapes);
-  ExpectNotServed(server.search(), &v1::SearchService::Stub::BatchSearchShapes);
-  {
-    grpc::ClientContext context;
-    const auto stream = server.search().StreamSearchShapes(&context);
-    EXPECT_FAILS(stream->Finish(), UNIMPLEMENTED, "METHOD_NOT_SERVED");
-  }
-}
-
 TEST(Lifecycle, NeverSharesItsPort) {
   TestServer first;
   first.Start();

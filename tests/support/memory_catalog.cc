@@ -139,6 +139,7 @@ absl::StatusOr<CollectionRecord> MemoryCatalog::UpdateCollection(
     record.metadata_keys = *patch.metadata_keys;
   }
   if (patch.display_name) record.display_name = *patch.display_name;
+  if (patch.graph_version) record.graph_version = *patch.graph_version;
   record.update_time = patch.update_time;
   ++record.revision;
   return record;
@@ -268,17 +269,43 @@ absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
   if (it == collection->shapes.end()) {
     return ShapeNotFoundError(removal.collection, removal.id);
   }
-  const ShapeRecord gone = it->second.record;
-  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, ShapeEtag(gone)));
-  collection->shapes.erase(it);
-  --collection->record.shape_count;
-  ShapeDeleted deleted;
-  deleted.collection_uid = collection->record.uid;
-  deleted.generation =
-      LogChange(*collection, removal.id, ShapeChange::Kind::kDelete);
-  deleted.unreferenced = Unreferenced(gone);
+  ARGMESH_RETURN_IF_ERROR(
+      CheckEtag(removal.etag, ShapeEtag(it->second.record)));
+  const ShapeDeleted deleted = Erase(*collection, removal.id);
   Remember(removal.request, SerializeShapeDeleted(deleted));
   return deleted;
+}
+
+ShapeDeleted MemoryCatalog::Erase(Collection& collection,
+                                  const std::string& id) {
+  const auto it = collection.shapes.find(id);
+  const ShapeRecord gone = it->second.record;
+  collection.shapes.erase(it);
+  --collection.record.shape_count;
+  ShapeDeleted deleted;
+  deleted.collection_uid = collection.record.uid;
+  deleted.generation = LogChange(collection, id, ShapeChange::Kind::kDelete);
+  deleted.unreferenced = Unreferenced(gone);
+  return deleted;
+}
+
+absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShapes(
+    std::string_view collection_id, const std::vector<std::string>& ids) {
+  const std::lock_guard lock(mutex_);
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(collection_id));
+  for (const std::string& id : ids) {
+    if (!collection->shapes.contains(id)) {
+      return ShapeNotFoundError(collection_id, id);
+    }
+  }
+  ShapeDeleted all{collection->record.uid, collection->record.generation, {}};
+  for (const std::string& id : ids) {
+    const ShapeDeleted one = Erase(*collection, id);
+    all.generation = one.generation;
+    all.unreferenced.insert(all.unreferenced.end(), one.unreferenced.begin(),
+                            one.unreferenced.end());
+  }
+  return all;
 }
 
 absl::Status MemoryCatalog::Close() {

@@ -33,6 +33,9 @@ class MemoryCatalog : public Catalog {
   absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) override;
   absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) override;
   absl::StatusOr<ShapeDeleted> DeleteShape(const ShapeDelete& removal) override;
+  absl::StatusOr<ShapeDeleted> DeleteShapes(
+      std::string_view collection,
+      const std::vector<std::string>& ids) override;
   absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                        std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
@@ -89,6 +92,8 @@ class MemoryCatalog : public Catalog {
   void Remember(const RequestStamp& request, std::string answer);
   int64_t LogChange(Collection& collection, const std::string& id,
                     ShapeChange::Kind kind);
+  // The shape, which is there, is so no more.
+  ShapeDeleted Erase(Collection& collection, const std::string& id);
   bool IsReferenced(const Sha256Digest& sha256) const;
   std::vector<Sha256Digest> Unreferenced(const ShapeRecord& gone) const;
   static ScannedGraph Scan(const Shape& shape);

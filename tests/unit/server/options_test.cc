@@ -155,7 +155,9 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
                             "--trace-log",
                             "spans",
                             "--metrics-listen",
-                            "127.0.0.1:9464"});
+                            "127.0.0.1:9464",
+                            "--import-root",
+                            "/srv/meshes"});
   ASSERT_TRUE(first.ok()) << first.status();
   const std::string text = FormatServerOptions(first->options);
   const auto second = Parse({WriteFile(text)});
@@ -172,6 +174,7 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
   EXPECT_EQ(second->options.audit_log, "audit");
   EXPECT_EQ(second->options.trace_log, "spans");
   EXPECT_EQ(second->options.metrics_listen, "127.0.0.1:9464");
+  EXPECT_EQ(second->options.import_root, "/srv/meshes");
 }
 
 TEST_F(ServerOptionsTest, AnswersHelpAndVersion) {

@@ -31,7 +31,7 @@ TEST(MakeError, KeepsEveryReasonApart) {
     EXPECT_FALSE(status.ok()) << name;
     EXPECT_EQ(ReasonOf(status), reason) << name;
   }
-  EXPECT_EQ(names.size(), 47U);
+  EXPECT_EQ(names.size(), 49U);
 }
 
 TEST(WithRetryDelay, SaysWhenToComeAgain) {

@@ -116,11 +116,13 @@ TEST_P(CatalogPortTest, UpdatesACollectionOnlyUnderItsEtag) {
   CollectionPatch patch{.id = "cups",
                         .display_name = "Mugs",
                         .metadata_keys = std::nullopt,
+                        .graph_version = cups.graph_version + 1,
                         .etag = CollectionEtag(cups),
                         .update_time = cups.update_time + absl::Seconds(1)};
   ASSERT_OK_AND_ASSIGN(const CollectionRecord updated,
                        catalog_->UpdateCollection(patch));
   EXPECT_EQ(updated.display_name, "Mugs");
+  EXPECT_EQ(updated.graph_version, cups.graph_version + 1);
   EXPECT_EQ(updated.update_time, patch.update_time);
   EXPECT_EQ(ReasonOrOk(catalog_->UpdateCollection(patch)),
             ErrorReason::kEtagMismatch);
@@ -465,6 +467,31 @@ TEST_P(CatalogPortTest, RepeatsTheAnswersOfCreateAndDelete) {
   ASSERT_OK_AND_ASSIGN(const ShapeDeleted second,
                        catalog_->DeleteShape(removal));
   EXPECT_EQ(second.generation, first.generation);
+}
+
+TEST_P(CatalogPortTest, DeletesAllShapesOfAListOrNone) {
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  for (const char* id : {"blue", "green", "red"}) {
+    ASSERT_THAT(catalog_->PutShape(SamplePut(cups, id, 1)), IsOk());
+  }
+  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes("cups", {"red", "none"})),
+            ErrorReason::kShapeNotFound);
+  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes("none", {"red"})),
+            ErrorReason::kCollectionNotFound);
+  EXPECT_THAT(catalog_->GetShape("cups", "red"), IsOk());
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted two,
+                       catalog_->DeleteShapes("cups", {"red", "blue"}));
+  EXPECT_EQ(two.generation, 5);
+  EXPECT_EQ(two.collection_uid, cups.uid);
+  EXPECT_TRUE(two.unreferenced.empty());  // "green" has the same mesh
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted last,
+                       catalog_->DeleteShapes("cups", {"green"}));
+  EXPECT_EQ(last.unreferenced.size(), 1U);
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord left,
+                       catalog_->GetCollection("cups"));
+  EXPECT_EQ(left.shape_count, 0);
+  EXPECT_EQ(left.generation, 6);
 }
 
 TEST_P(CatalogPortTest, ForgetsARequestAfterItsTime) {

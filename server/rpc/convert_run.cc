@@ -1,0 +1,34 @@
+#include "server/rpc/convert_run.h"
+
+#include "server/rpc/resource_name.h"
+#include "server/rpc/status.h"
+
+namespace argmesh {
+
+v1::ReindexCollectionResponse ReindexAnswer(std::string_view collection,
+                                            const RunReport& report) {
+  v1::ReindexCollectionResponse out;
+  out.set_reindexed(report.done);
+  out.set_failed(report.failed);
+  for (const ItemFailure& failure : report.failures) {
+    v1::ReindexFailure& added = *out.add_failures();
+    added.set_shape(ShapeName(collection, failure.item));
+    *added.mutable_error() = ToProtoStatus(failure.status);
+  }
+  return out;
+}
+
+v1::ImportShapesResponse ImportAnswer(const RunReport& report) {
+  v1::ImportShapesResponse out;
+  out.set_imported(report.done);
+  out.set_already_stored(report.were_done);
+  out.set_failed(report.failed);
+  for (const ItemFailure& failure : report.failures) {
+    v1::ImportFailure& added = *out.add_failures();
+    added.set_path(failure.item);
+    *added.mutable_error() = ToProtoStatus(failure.status);
+  }
+  return out;
+}
+
+}  // namespace argmesh

@@ -1,0 +1,101 @@
+// The base of reactors that read a mesh: one header that announces it, then
+// its chunks.
+//
+// Chunks go straight to the disk; the mesh is handed on only when the client
+// has half-closed and size and SHA-256 are those of the header. A silent
+// client is cut off after the stream idle timeout.
+#ifndef ARGMESH_SERVER_RPC_MESH_STREAM_REACTOR_H_
+#define ARGMESH_SERVER_RPC_MESH_STREAM_REACTOR_H_
+
+#include <memory>
+#include <utility>
+
+#include "server/rpc/convert_upload.h"
+#include "server/rpc/reading_reactor.h"
+
+namespace argmesh {
+
+struct MeshStreamPlan {
+  const char* method;    // "ShapeService.UploadShape"
+  WorkClass work_class;  // of what is done with the mesh
+  Admission& admission;  // what the call takes a place of
+};
+
+// `Request` has a `header` and a `chunk`.
+template <typename Base, typename Request>
+class MeshStreamReactor : public ReadingReactor<Base, Request> {
+ public:
+  MeshStreamReactor(ServiceEnvironment& environment,
+                    grpc::CallbackServerContext* context,
+                    const MeshStreamPlan& plan)
+      : ReadingReactor<Base, Request>(environment, context, nullptr,
+                                      plan.method),
+        plan_(plan) {}
+
+  void OnTick(absl::Time now) override {
+    this->ResubmitWaiting();
+    const absl::Duration limit = this->environment().stream_idle_timeout();
+    if (this->Silence(now) > limit) this->FinishOnce(StreamIdle(limit));
+  }
+
+ protected:
+  // Refuses a header, or says what it announces.
+  virtual absl::StatusOr<UploadAnnouncement> Announced(
+      const Request& first) = 0;
+  // The mesh is there; on the pool. An error ends the call.
+  virtual absl::Status Take(std::unique_ptr<StagedMesh> mesh) = 0;
+
+  void Begin() final {
+    if (this->AdmitTo(plan_.admission)) this->StartNextRead();
+  }
+
+  void Received(Request& request) final {
+    const bool expected = request.has_header()  ? upload_ == nullptr
+                          : request.has_chunk() ? upload_ != nullptr
+                                                : false;
+    if (!expected) {
+      this->FinishOnce(StreamOrderInvalid("a mesh is one header, then chunks"));
+      return;
+    }
+    this->RunPatiently(WorkClass::kQuick, [this, &request] {
+      const absl::Status taken = request.has_header()
+                                     ? StartUpload(request)
+                                     : upload_->Append(request.chunk());
+      if (taken.ok()) {
+        this->StartNextRead();
+      } else {
+        this->FinishOnce(taken);
+      }
+    });
+  }
+
+  void ReadsEnded() final {
+    if (upload_ == nullptr) {
+      this->FinishOnce(
+          StreamOrderInvalid("the stream ended before its header"));
+      return;
+    }
+    this->RunPatiently(plan_.work_class, [this] {
+      absl::StatusOr<std::unique_ptr<StagedMesh>> mesh = upload_->Finish();
+      const absl::Status taken =
+          mesh.ok() ? Take(*std::move(mesh)) : mesh.status();
+      if (!taken.ok()) this->FinishOnce(taken);
+    });
+  }
+
+ private:
+  absl::Status StartUpload(const Request& first) {
+    absl::StatusOr<UploadAnnouncement> announced = Announced(first);
+    if (!announced.ok()) return announced.status();
+    auto upload = this->engine().StartUpload(*announced);
+    if (upload.ok()) upload_ = *std::move(upload);
+    return upload.status();
+  }
+
+  const MeshStreamPlan plan_;
+  std::unique_ptr<MeshUpload> upload_;
+};
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_RPC_MESH_STREAM_REACTOR_H_

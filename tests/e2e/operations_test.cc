@@ -1,0 +1,92 @@
+// Commands that follow an operation of the server: import and reindex.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/e2e/installation.h"
+
+namespace argmesh {
+namespace {
+
+using testing::HasSubstr;
+
+class OperationsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const CommandOutcome sample = installation_.Run(
+        {"sample", "--out", Path("meshes"), "--shapes-per-class", "2",
+         "--classes", "mug,wrench", "--vertices", "1000"});
+    ASSERT_EQ(sample.exit_code, 0) << sample.err;
+    ASSERT_TRUE(installation_.StartServer({"--import-root", Path("meshes")}));
+  }
+
+  std::string Path(const std::string& relative) const {
+    return (installation_.folder() / relative).string();
+  }
+
+  int64_t Unusable() {
+    return installation_
+        .Run({"search", "--collection", "c", "--limit", "10", "--json",
+              Path("meshes/mug/mug-01.off")})
+        .Json()["stats"]["shapes_unusable"];
+  }
+
+  Installation installation_;
+};
+
+TEST_F(OperationsTest, ImportStoresWhatIngestWouldUnderTheSameIds) {
+  const CommandOutcome import =
+      installation_.Run({"import", "--collection", "c", "--json"});
+  ASSERT_EQ(import.exit_code, 0) << import.err;
+  EXPECT_EQ(import.Json()["imported"], 4);
+  EXPECT_EQ(import.Json()["failed"], 0);
+  const CommandOutcome ingest = installation_.Run(
+      {"ingest", "--collection", "c", "--json", Path("meshes")});
+  EXPECT_EQ(ingest.Json()["ingested"], 0);
+  EXPECT_EQ(ingest.Json()["already_stored"], 4);
+}
+
+TEST_F(OperationsTest, ImportNamesFilesThatFailedAndGoesOnWithTheRest) {
+  installation_.WriteFile("meshes/mug/bad.off", "OFF\n1 1 0\n");
+  const CommandOutcome import =
+      installation_.Run({"import", "--collection", "c", "--json", "mug"});
+  EXPECT_EQ(import.exit_code, 1);
+  EXPECT_EQ(import.Json()["imported"], 2);
+  ASSERT_EQ(import.Json()["failures"].size(), 1U);
+  EXPECT_EQ(import.Json()["failures"][0]["path"], "bad.off");
+  EXPECT_EQ(import.Json()["failures"][0]["reason"], "MESH_MALFORMED");
+  EXPECT_THAT(import.err, HasSubstr("failed bad.off"));
+  const CommandOutcome outside =
+      installation_.Run({"import", "--collection", "c", "--json", ".."});
+  EXPECT_EQ(outside.exit_code, 1);
+  EXPECT_EQ(outside.Json()["error"]["reason"], "FILE_UNREADABLE");
+}
+
+TEST_F(OperationsTest, ReindexMakesShapesOfAnotherVersionSearchable) {
+  ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
+  ASSERT_EQ(Unusable(), 0);
+  installation_.SignalServer(SIGTERM);
+  ASSERT_EQ(installation_.WaitForServer(), 0);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(Path("store/catalog.db").c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db,
+                         "UPDATE graph SET algorithm_version = "
+                         "algorithm_version - 1",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(db);
+  ASSERT_TRUE(installation_.StartServer());
+  EXPECT_EQ(Unusable(), 4);
+  const CommandOutcome reindex = installation_.Run({"reindex", "c", "--json"});
+  ASSERT_EQ(reindex.exit_code, 0) << reindex.err;
+  EXPECT_EQ(reindex.Json()["reindexed"], 4);
+  EXPECT_EQ(reindex.Json()["failed"], 0);
+  EXPECT_EQ(Unusable(), 0);
+}
+
+}  // namespace
+}  // namespace argmesh
