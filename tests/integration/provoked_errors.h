@@ -65,6 +65,7 @@ class ProvokedErrors {
                  const std::string& chunk);
   ErrorOf CallWithKeys(const std::string& key);
   static ErrorOf DamageAGraph();
+  static ErrorOf ImportFromOutside();
   ErrorOf CallFaulty(const std::string& method, const Message& request);
 
   TestServer server_;

@@ -7,7 +7,9 @@
 #include "absl/time/clock.h"
 #include "core/base/sha256.h"
 #include "server/rpc/status.h"
+#include "server/storage/import_root.h"
 #include "server/storage/sqlite_connection.h"
+#include "tests/integration/operation_wait.h"
 #include "tests/integration/provoked_errors.h"
 #include "tests/support/memory_catalog.h"
 #include "tests/support/memory_mesh_store.h"
@@ -181,6 +183,24 @@ ErrorOf ProvokedErrors::DamageAGraph() {
               Named<v1::GetShapeGraphRequest>(kTorusName));
 }
 
+ErrorOf ProvokedErrors::ImportFromOutside() {
+  const TemporaryDirectory files;
+  const auto root = ImportRoot::Open(files.path());
+  EXPECT_TRUE(root.ok()) << root.status();
+  TestServerOptions options;
+  options.rpc.import_source = root->get();
+  TestServer server(options);
+  server.Start();
+  server.MakeCollection("c");
+  v1::ImportShapesRequest request;
+  request.set_parent("collections/c");
+  request.set_folder("..");
+  grpc::ClientContext context;
+  google::longrunning::Operation operation;
+  EXPECT_TRUE(server.ingest().ImportShapes(&context, request, &operation).ok());
+  return ErrorOf(WaitForOperation(server, operation.name()).error());
+}
+
 ProvokedErrors::Provocations ProvokedErrors::OfFaults() {
   return {{"STORE_FULL",
            [] {
@@ -202,6 +222,7 @@ ProvokedErrors::Provocations ProvokedErrors::OfFaults() {
                          NewShapeOf("torus", TorusOff()));
            }},
           {"STORED_DATA_DAMAGED", [] { return DamageAGraph(); }},
+          {"FILE_UNREADABLE", [] { return ImportFromOutside(); }},
           {"DRAINING", [] {
              TestServer server;
              server.Start();
@@ -243,6 +264,12 @@ ProvokedErrors::Provocations ProvokedErrors::OfFaultyEngines() {
        [this] {
          return CallFaulty("CollectionService/GetCollection",
                            Named<v1::GetCollectionRequest>("collections/c"));
+       }},
+      {"IMPORT_NOT_ENABLED",
+       [this] {
+         v1::ImportShapesRequest request;
+         request.set_parent("collections/c");
+         return CallFaulty("IngestService/ImportShapes", request);
        }},
       {"METHOD_NOT_SERVED", [this] {
          return CallFaulty("AdminService/GetSnapshot",
