@@ -19,7 +19,7 @@ class OperationsTest : public testing::Test {
   void SetUp() override {
     const CommandOutcome sample = installation_.Run(
         {"sample", "--out", Path("meshes"), "--shapes-per-class", "2",
-         "--classes", "mug,wrench", "--vertices", "1000"});
+         "--classes", "mug,wrench", "--vertices", "1500"});
     ASSERT_EQ(sample.exit_code, 0) << sample.err;
     ASSERT_TRUE(installation_.StartServer({"--import-root", Path("meshes")}));
   }
