@@ -23,9 +23,12 @@
 
 #define ARGMESH_MACRO_CONCAT_INNER_(a, b) a##b
 #define ARGMESH_MACRO_CONCAT_(a, b) ARGMESH_MACRO_CONCAT_INNER_(a, b)
+// `lhs` may declare a variable, so it has no parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define ARGMESH_ASSIGN_OR_RETURN_IMPL_(tmp, lhs, expr) \
   auto tmp = (expr);                                   \
   if (!tmp.ok()) return std::move(tmp).status();       \
   lhs = std::move(tmp).value()
+// NOLINTEND(bugprone-macro-parentheses)
 
 #endif  // ARGMESH_CORE_BASE_STATUS_MACROS_H_
