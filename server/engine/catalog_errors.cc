@@ -71,7 +71,7 @@ absl::Status CheckEtag(std::string_view asked, std::string_view stored) {
 absl::Status CheckStoredValues(
     const std::vector<MetadataKey>& keys, std::string_view shape,
     const std::map<std::string, std::string>& metadata) {
-  const absl::Status typed = CheckDeclaredValues(keys, metadata);
+  absl::Status typed = CheckDeclaredValues(keys, metadata);
   if (typed.ok()) return typed;
   const std::string name(shape);
   return MakeError(

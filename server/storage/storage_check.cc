@@ -91,7 +91,7 @@ absl::Status CheckMeshes(SqliteConnection& connection, const MeshStore& meshes,
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> named,
                            ReadNamedMeshes(connection));
   for (const NamedMesh& mesh : named) {
-    const absl::Status status =
+    absl::Status status =
         ReadWholeMesh(meshes, mesh, stop, [&report](std::string_view piece) {
           report.mesh_bytes += static_cast<int64_t>(piece.size());
           return absl::OkStatus();
