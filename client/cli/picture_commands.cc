@@ -36,7 +36,7 @@ void AddPictureOptions(CLI::App* command, PictureArguments& arguments) {
 }
 
 FigureOptions FigureOptionsOf(const PictureArguments& arguments) {
-  static const std::map<std::string, Eigen::Vector3d> axes = {
+  static const std::map<std::string, Eigen::Vector3d> kAxes = {
       {"x", {1, 0, 0}},   {"y", {0, 1, 0}},   {"z", {0, 0, 1}},
       {"-x", {-1, 0, 0}}, {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
   FigureOptions options;
@@ -45,7 +45,7 @@ FigureOptions FigureOptionsOf(const PictureArguments& arguments) {
         16, arguments.width * options.panel_height / options.panel_width);
     options.panel_width = arguments.width;
   }
-  if (!arguments.up.empty()) options.render.view.up = axes.at(arguments.up);
+  if (!arguments.up.empty()) options.render.view.up = kAxes.at(arguments.up);
   options.title = arguments.title;
   return options;
 }

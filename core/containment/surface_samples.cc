@@ -99,7 +99,7 @@ SurfaceSamples SampleSurface(const TriangleMesh& mesh,
     const Eigen::Vector3d b = mesh.vertex(face[1]);
     const Eigen::Vector3d c = mesh.vertex(face[2]);
     const Eigen::Vector3d face_normal = (b - a).cross(c - a).normalized();
-    for (; next < passed; next += step) {
+    while (next < passed) {
       const double u = std::sqrt(random.Uniform());
       const double v = random.Uniform();
       const Eigen::Vector3d share(1 - u, u * (1 - v), u * v);
@@ -113,6 +113,7 @@ SurfaceSamples SampleSurface(const TriangleMesh& mesh,
       const bool cancels = normal.squaredNorm() < 1e-18;
       ordered.normals.emplace_back(
           (cancels ? face_normal : normal.normalized()).cast<float>());
+      next += step;
     }
   }
   for (size_t i = ordered.positions.size(); i > 1; --i) {

@@ -24,7 +24,8 @@ constexpr double kTrainingShapes = 32;
 using SlotBits = std::array<uint64_t, 2>;
 
 constexpr size_t Count(const SlotBits& bits) {
-  return static_cast<size_t>(std::popcount(bits[0]) + std::popcount(bits[1]));
+  return static_cast<size_t>(std::popcount(bits[0])) +
+         static_cast<size_t>(std::popcount(bits[1]));
 }
 
 template <typename Visit>

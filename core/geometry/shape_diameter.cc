@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -120,6 +121,22 @@ std::vector<double> Measure(const TriangleMesh& unit_mesh,
   return diameters;
 }
 
+// The mean of the neighbours that have a value; nothing without such.
+std::optional<double> NeighborMean(const SurfaceGraph& graph, int32_t v,
+                                   const std::vector<double>& values) {
+  double sum = 0;
+  int count = 0;
+  for (int32_t e = graph.offsets.data()[v]; e < graph.offsets.data()[v + 1];
+       ++e) {
+    const double value = values.data()[graph.targets.data()[e]];
+    if (graph.kinds.data()[e] != LinkKind::kEdge || value <= 0) continue;
+    sum += value;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
 // Gives vertices without a value the mean of their neighbours', round by
 // round, and those out of reach the mean of all.
 void FillGaps(const SurfaceGraph& graph, std::vector<double>& values) {
@@ -139,17 +156,8 @@ void FillGaps(const SurfaceGraph& graph, std::vector<double>& values) {
     const std::vector<double> before = values;
     std::vector<int32_t> still_open;
     for (const int32_t v : open) {
-      double near_sum = 0;
-      int near_count = 0;
-      for (int32_t e = graph.offsets.data()[v]; e < graph.offsets.data()[v + 1];
-           ++e) {
-        const double near = before.data()[graph.targets.data()[e]];
-        if (graph.kinds.data()[e] != LinkKind::kEdge || near <= 0) continue;
-        near_sum += near;
-        ++near_count;
-      }
-      if (near_count > 0) {
-        values.data()[v] = near_sum / near_count;
+      if (const auto near = NeighborMean(graph, v, before)) {
+        values.data()[v] = *near;
       } else {
         still_open.push_back(v);
       }

@@ -44,8 +44,8 @@ Eigen::Vector3d SurfaceGrid::Position(const GridCorner& corner) const {
 }
 
 size_t SurfaceGrid::BlockNumber(const GridCorner& block) const {
-  return static_cast<size_t>((block[2] * size_[1] + block[1]) * size_[0] +
-                             block[0]);
+  const int64_t row = int64_t{block[2]} * size_[1] + block[1];
+  return static_cast<size_t>(row * size_[0] + block[0]);
 }
 
 bool SurfaceGrid::Contains(const GridCorner& block) const {
@@ -67,7 +67,7 @@ float SurfaceGrid::Value(const GridCorner& corner) const {
   if (!Contains(block)) return static_cast<float>(cell_);
   const size_t number = BlockNumber(block);
   const int32_t slot = slot_[number];
-  if (slot < 0) return static_cast<float>(cell_) * sign_[number];
+  if (slot < 0) return static_cast<float>(cell_ * sign_[number]);
   const int index =
       ((corner[2] & 3) * kBlock + (corner[1] & 3)) * kBlock + (corner[0] & 3);
   return stored_[static_cast<size_t>(slot)].values[static_cast<size_t>(index)];

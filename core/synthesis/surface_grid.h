@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,7 +48,7 @@ class SurfaceGrid {
 
  private:
   struct Block {
-    std::array<float, kBlock * kBlock * kBlock> values;
+    std::array<float, size_t{kBlock} * kBlock * kBlock> values;
     std::vector<int32_t> terms;
   };
   size_t BlockNumber(const GridCorner& block) const;

@@ -32,7 +32,7 @@ absl::Status CheckDigest(const Sha256Digest& announced,
 
 MeshUpload::MeshUpload(UploadAnnouncement announced,
                        std::unique_ptr<MeshWriter> writer)
-    : announced_(std::move(announced)), writer_(std::move(writer)) {}
+    : announced_(announced), writer_(std::move(writer)) {}
 
 absl::Status MeshUpload::Append(std::string_view chunk) {
   const int64_t received = received_bytes_ + static_cast<int64_t>(chunk.size());

@@ -25,7 +25,7 @@ absl::Status CheckRange(std::string_view field, double value, double low,
 }  // namespace
 
 absl::Status CheckId(std::string_view field, std::string_view id) {
-  const absl::Status status = CheckIdentifier(field, id);
+  absl::Status status = CheckIdentifier(field, id);
   if (status.ok()) return status;
   return MakeError(ErrorReason::kNameInvalid, std::string(status.message()),
                    {{"field", std::string(field)}});
