@@ -27,20 +27,20 @@ void AddLevel(const LevelScore& level, double weight,
   AddTerm({"level " + level.name, level.score, weight}, out);
 }
 
+// Half the component levels, half the uniform level, which comes last.
 void ExplainMean(const MatchResult& match, v1::MatchExplanation* out) {
-  const size_t count = match.level_scores.size();
+  const std::vector<LevelScore>& levels = match.level_scores;
+  const bool uniform = !levels.empty() && levels.back().name == "uniform";
+  const size_t components = levels.size() - (uniform ? 1 : 0);
+  const double share = uniform && components > 0 ? 0.5 : 1;
   double sum = 0;
-  for (size_t scored = 1; scored <= count; ++scored) {
-    sum += match.level_scores[count - scored].score;
-    const double weight = 1.0 / static_cast<double>(scored);
-    // One level alone may equal the mean of many by chance; the longest run
-    // that does is as true a sum.
-    if (std::abs(sum * weight - match.score) > kScoreTolerance) continue;
-    out->clear_terms();
-    for (size_t i = count - scored; i < count; ++i) {
-      AddLevel(match.level_scores[i], weight, out);
-    }
+  for (size_t i = 0; i < levels.size(); ++i) {
+    const double weight =
+        i < components ? share / static_cast<double>(components) : share;
+    sum += weight * levels[i].score;
+    AddLevel(levels[i], weight, out);
   }
+  if (std::abs(sum - match.score) > kScoreTolerance) out->clear_terms();
 }
 
 void ExplainBestLevel(const MatchResult& match, v1::MatchExplanation* out) {
