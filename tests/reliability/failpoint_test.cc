@@ -252,7 +252,8 @@ TEST_F(FailpointTest, AFailedCallIsAnErrorOrNothingAndDeathLosesNothing) {
   }
   EXPECT_GE(failpoints, 30);
   std::printf(
-      "failpoints: %d in %zu kinds of file calls, each as error and as death: "
+      "measured: %d failpoints in %zu kinds of file calls, each as error and "
+      "as death: "
       "%s\n",
       failpoints, counting.times().size(),
       HasFailure() ? "failures found" : "0 failures");

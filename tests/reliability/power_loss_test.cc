@@ -161,7 +161,7 @@ TEST_F(PowerLossTest, LosesNothingAcknowledgedAndLeavesNothingHalf) {
       Check(scripts, loss);
     }
   }
-  std::printf("power loss: %ju images of %jd file calls, seed %ju: %s\n",
+  std::printf("measured: %ju images of %jd file calls, seed %ju: %s\n",
               static_cast<uintmax_t>(images), static_cast<intmax_t>(calls),
               static_cast<uintmax_t>(seed),
               HasFailure() ? "damage found" : "0 damaged");

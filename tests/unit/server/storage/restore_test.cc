@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "core/base/random.h"
 #include "server/engine/error_reason.h"
+#include "tests/support/environment_number.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/unit/server/storage/stored_samples.h"
 
@@ -91,8 +93,8 @@ TEST_F(RestoreTest, RefusesEveryDamagedSnapshotAndLeavesTheDataAlone) {
   const std::string bytes = SnapshotBytes();
   const uint64_t seed = 11;
   Random random(seed);
-  const int rounds = 200;
-  for (int round = 0; round < rounds; ++round) {
+  const uint64_t rounds = EnvironmentNumber("ARGMESH_DAMAGED_SNAPSHOTS", 200);
+  for (uint64_t round = 0; round < rounds; ++round) {
     std::string damaged = bytes;
     const size_t at = random.Below(bytes.size());
     if (round % 4 == 3) {
@@ -108,6 +110,8 @@ TEST_F(RestoreTest, RefusesEveryDamagedSnapshotAndLeavesTheDataAlone) {
   EXPECT_FALSE(fs::exists(samples_.path() / "restoring"));
   samples_.Open();
   EXPECT_EQ(samples_.Contents(), now_);
+  std::printf("measured: %s of as many damaged snapshots refused, seed 11\n",
+              std::to_string(rounds).c_str());
 }
 
 TEST_F(RestoreTest, RefusesWhatIsNoSnapshot) {
