@@ -3,6 +3,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "absl/strings/ascii.h"
@@ -26,6 +27,16 @@ void Client::Parts::Prepare(absl::Time deadline,
     context.set_deadline(absl::ToChronoTime(deadline));
   }
   AddKey(options, context);
+}
+
+void Client::Parts::Wait(absl::Duration wait,
+                         const std::stop_token& stop) const {
+  const absl::Time end = absl::Now() + wait;
+  while (absl::Now() < end && !stop.stop_requested()) {
+    const absl::Time next = std::min(end, absl::Now() + absl::Milliseconds(50));
+    channel->WaitForConnected(absl::ToChronoTime(next));
+    absl::SleepFor(next - absl::Now());
+  }
 }
 
 absl::Status Client::Parts::Explain(const grpc::Status& status) const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "absl/status/status.h"
@@ -48,6 +49,11 @@ struct Client::Parts {
   absl::Status Explain(const grpc::Status& status) const;
   absl::Status Explain(const absl::Status& status) const;
 
+  // Lets time pass between two attempts, less when `stop` is requested. Not a
+  // mere sleep: a connection that is being made needs a thread that attends
+  // to it, and between calls this is the only one.
+  void Wait(absl::Duration wait, const std::stop_token& stop = {}) const;
+
   // Gives the context of one attempt its deadline and the key.
   void Prepare(absl::Time deadline, grpc::ClientContext& context) const;
 
@@ -73,7 +79,7 @@ absl::StatusOr<Response> Client::Parts::Call(
     if (repeat == Repeat::kNever) return status;
     const auto wait = backoff.Next(status);
     if (!wait || absl::Now() + *wait >= deadline) return status;
-    absl::SleepFor(*wait);
+    Wait(*wait);
   }
 }
 

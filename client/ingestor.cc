@@ -59,7 +59,6 @@ class IngestRun {
   // What was sent without a result waits again.
   void RecallSent();
   bool AllReported() const;
-  void Sleep(absl::Duration wait) const;
 
   Client& client_;
   const IngestOptions& options_;
@@ -97,7 +96,7 @@ absl::Status IngestRun::Run() {
                     : status;
     const auto wait = backoff.Next(failure);
     if (!wait) return failure;
-    Sleep(*wait);
+    client_.parts().Wait(*wait, stop_);
   }
 }
 
@@ -222,13 +221,6 @@ void IngestRun::RecallSent() {
 bool IngestRun::AllReported() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return reported_ == entries_.size();
-}
-
-void IngestRun::Sleep(absl::Duration wait) const {
-  const absl::Time end = absl::Now() + wait;
-  while (absl::Now() < end && !stop_.stop_requested()) {
-    absl::SleepFor(std::min(end - absl::Now(), absl::Milliseconds(50)));
-  }
 }
 
 }  // namespace

@@ -148,6 +148,16 @@ TEST_F(KillTest, LosesNothingThatWasAcknowledged) {
               HasFailure() ? "failures" : "0 lost, 0 half there");
 }
 
+TEST_F(KillTest, ACallReachesAServerThatComesBackMeanwhile) {
+  installation_.SignalServer(SIGKILL);
+  installation_.WaitForServer();
+  ChildProcess list = installation_.Start({"list", "--json"});
+  // Past its first attempts, which find no server.
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  ASSERT_TRUE(installation_.StartServer()) << installation_.ServerLog();
+  EXPECT_EQ(list.Wait(), 0) << list.Err();
+}
+
 TEST_F(KillTest, AnswersTheSameAfterARestart) {
   ASSERT_EQ(StartIngest("kept").Wait(), 0);
   const std::string id = *Stored("kept").begin();
