@@ -4,7 +4,9 @@
 #include <set>
 #include <system_error>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/command_set.h"
 #include "client/cli/mesh_files.h"
 #include "client/cli/progress_line.h"
@@ -49,9 +51,8 @@ absl::StatusOr<std::vector<std::string>> ClassesOf(
   if (arguments.classes.empty()) return known;
   for (const std::string& name : arguments.classes) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      std::string names;
-      for (const std::string& k : known) names += " " + k;
-      return UsageError("--classes " + name + ": there are" + names);
+      return UsageError("--classes " + name + ": there are " +
+                        absl::StrJoin(known, " "));
     }
   }
   const std::set<std::string> unique(arguments.classes.begin(),
@@ -98,7 +99,7 @@ absl::StatusOr<int> WriteCollection(const Session& session,
                           {.target_vertices = arguments.vertices}));
       const std::string file = absl::StrFormat("%s/%s-%02d.off", name, name, i);
       ARGMESH_RETURN_IF_ERROR(WriteOff(folder / file, shape.mesh));
-      labels += file + '\t' + name + '\n';
+      absl::StrAppend(&labels, file, "\t", name, "\n");
       progress.Advance(++written);
     }
   }

@@ -23,12 +23,14 @@ void TextTable::AddRow(std::vector<std::string> cells) {
 
 std::string TextTable::ToString() const {
   std::vector<size_t> widths;
+  widths.reserve(headers_.size());
   for (size_t c = 0; c < headers_.size(); ++c) {
     size_t width = TextWidth(headers_[c]);
     for (const auto& row : rows_) width = std::max(width, TextWidth(row[c]));
     widths.push_back(width);
   }
   std::vector<std::string> rule;
+  rule.reserve(widths.size());
   for (const size_t width : widths) rule.emplace_back(width, '-');
   std::string text = Line(headers_, widths) + Line(rule, widths);
   for (const auto& row : rows_) text += Line(row, widths);

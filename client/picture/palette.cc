@@ -54,6 +54,7 @@ std::array<RgbColor, kColors> MakePalette() {
                                                {96, 104, 124}}};
   const std::vector<RgbColor> candidates = MakeCandidates();
   std::vector<Eigen::Vector3d> labs;
+  labs.reserve(candidates.size());
   for (const RgbColor& color : candidates) labs.push_back(LabOfRgb(color));
   std::vector<double> nearest(candidates.size());
   const Eigen::Vector3d grey = LabOfRgb(kPaleGrey);

@@ -168,10 +168,12 @@ class Renderer {
     // of the shape's own openness.
     const bool center_is_ground = hits_[PixelNumber(x, y)].face < 0;
     for (int i = 0; i < kSub * kSub; ++i) {
+      const int column = i % kSub;
+      const int row = i / kSub;
       const float px =
-          static_cast<float>(x) + (static_cast<float>(i % kSub) + 0.5F) / kSub;
+          static_cast<float>(x) + (static_cast<float>(column) + 0.5F) / kSub;
       const float py =
-          static_cast<float>(y) + (static_cast<float>(i / kSub) + 0.5F) / kSub;
+          static_cast<float>(y) + (static_cast<float>(row) + 0.5F) / kSub;
       const RayHit hit = scene_.Look(px, py);
       const bool same = (hit.face < 0) == center_is_ground;
       sum += Shade(hit, px, py, same ? sky.At(x, y) : 0.8F);

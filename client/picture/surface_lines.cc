@@ -63,7 +63,7 @@ void SubpixelGrid::Set(int x, int y, int i, Subpixel subpixel) {
 void SubpixelGrid::Fill(int x, int y, int32_t key, float z) {
   const auto begin =
       subpixels_.begin() + static_cast<ptrdiff_t>(Pixel(x, y) * kSub * kSub);
-  std::fill(begin, begin + kSub * kSub, Subpixel{key, z});
+  std::fill_n(begin, kSub * kSub, Subpixel{key, z});
 }
 
 const SubpixelGrid::Subpixel& SubpixelGrid::At(int column, int row) const {

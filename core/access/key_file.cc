@@ -202,7 +202,7 @@ absl::Status WriteWhole(const std::string& path, const std::string& text,
                        ::write(descriptor, text.data(), text.size()) ==
                            static_cast<ssize_t>(text.size()) &&
                        ::fsync(descriptor) == 0;
-  const absl::Status status =
+  absl::Status status =
       written ? absl::OkStatus() : FileFailure("write", unfinished);
   ::close(descriptor);
   if (!status.ok()) return status;

@@ -83,9 +83,6 @@ WindowPairs::WindowPairs(const QueryWindows& query,
                          std::span<const float> weights, bool flipped,
                          const PreparedTarget& target, int shift)
     : flipped_(flipped), expected_scale_(ShiftScale(shift)) {
-  const float unit = DefaultWindowCodebook().unit;
-  const float falloff = -1 / (2 * kSigma * kSigma * unit * unit);
-  double total = 0;
   size_t next = 0;
   for (size_t l = 0; l < query.levels.size(); ++l) {
     const std::optional<size_t> met = MetLevel(l, shift);
@@ -99,18 +96,26 @@ WindowPairs::WindowPairs(const QueryWindows& query,
       const QueryWindow& window = windows[i];
       const double weight =
           first + i < weights.size() ? weights[first + i] : 1.0;
-      const auto nearest = level.descriptors.FindNearest<kCandidates>(
-          DescriptorOf(window, flipped));
-      for (const DescriptorTable::Entry& entry : nearest) {
-        if (entry.row < 0) continue;
-        const float likeness = std::exp(falloff * entry.squared);
-        if (likeness < kMinLikeness) continue;
-        const auto row = static_cast<size_t>(entry.row);
-        matches_.push_back({&window, level.positions[row], level.normals[row]});
-        total += weight * likeness * likeness;
-        cumulative_.push_back(total);
-      }
+      Add(window, weight, level);
     }
+  }
+}
+
+void WindowPairs::Add(const QueryWindow& window, double weight,
+                      const PreparedLevel& level) {
+  const float unit = DefaultWindowCodebook().unit;
+  const float falloff = -1 / (2 * kSigma * kSigma * unit * unit);
+  double total = cumulative_.empty() ? 0 : cumulative_.back();
+  const auto nearest = level.descriptors.FindNearest<kCandidates>(
+      DescriptorOf(window, flipped_));
+  for (const DescriptorTable::Entry& entry : nearest) {
+    if (entry.row < 0) continue;
+    const float likeness = std::exp(falloff * entry.squared);
+    if (likeness < kMinLikeness) continue;
+    const auto row = static_cast<size_t>(entry.row);
+    matches_.push_back({&window, level.positions[row], level.normals[row]});
+    total += weight * likeness * likeness;
+    cumulative_.push_back(total);
   }
 }
 

@@ -37,6 +37,9 @@ class WindowPairs {
   std::optional<Similarity> Draw(Random& random) const;
 
  private:
+  // The window's matches on one level.
+  void Add(const QueryWindow& window, double weight,
+           const PreparedLevel& level);
   const WindowMatch& DrawMatch(Random& random) const;
 
   bool flipped_;

@@ -79,13 +79,13 @@ class Solver {
     done_.assign(cols_, 0);
     double base = 0;
     size_t at = row;
-    size_t col = cols_;
+    size_t col = Relax(at, base);
     while (true) {
-      col = Relax(at, base);
       base = shortest_[col];
       done_[col] = 1;
       if (row_of_column_[col] < 0) break;
       at = static_cast<size_t>(row_of_column_[col]);
+      col = Relax(at, base);
     }
     UpdatePrices(row, base);
     Flip(row, col);

@@ -77,6 +77,7 @@ double DistanceConsistency(const PackedLevel& query, const PackedLevel& target,
   }
   if (changes.empty()) return 1;
   std::vector<float> ratios;
+  ratios.reserve(changes.size());
   for (const Change& change : changes) ratios.push_back(change.log_ratio);
   const auto middle =
       ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);

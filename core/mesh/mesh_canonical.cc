@@ -77,7 +77,7 @@ ThirdMoment ComputeThirdMoment(const TriangleMesh& mesh,
 void FindFrame(const TriangleMesh& unit, CanonicalMesh& canonical) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       ComputeCovariance(unit));
-  const Eigen::Vector3d variances = solver.eigenvalues();  // ascending
+  const Eigen::Vector3d& variances = solver.eigenvalues();  // ascending
   const double gap =
       std::min(variances[2] - variances[1], variances[1] - variances[0]);
   canonical.ambiguous = !(gap > kSmallestGap * variances[2]);
@@ -171,6 +171,7 @@ std::vector<int32_t> NumberVertices(const TriangleMesh& unit,
                                     const std::vector<GridPoint>& points) {
   const std::vector<int32_t> rank = RankPoints(points);
   std::vector<Triple> faces;
+  faces.reserve(Slot(unit.num_faces()));
   for (int f = 0; f < unit.num_faces(); ++f) {
     faces.push_back(TurnedFace(unit, f, rank));
   }
@@ -209,6 +210,7 @@ void Renumber(const TriangleMesh& unit, CanonicalMesh& canonical) {
     }
   }
   std::vector<Triple> faces;
+  faces.reserve(Slot(unit.num_faces()));
   for (int f = 0; f < unit.num_faces(); ++f) {
     faces.push_back(TurnedFace(unit, f, number));
   }

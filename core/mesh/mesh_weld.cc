@@ -31,16 +31,17 @@ class KeptVertices {
     const Eigen::RowVector3d x = V_.row(v);
     const Cell low = CellOf(x.array() - distance_);
     const Cell high = CellOf(x.array() + distance_);
-    Cell cell;
-    for (int i = 0; i < (low[0] == high[0] ? 1 : 2); ++i) {
-      cell[0] = i == 0 ? low[0] : high[0];
-      for (int j = 0; j < (low[1] == high[1] ? 1 : 2); ++j) {
-        cell[1] = j == 0 ? low[1] : high[1];
-        for (int k = 0; k < (low[2] == high[2] ? 1 : 2); ++k) {
-          cell[2] = k == 0 ? low[2] : high[2];
-          found = FindInCell(x, cell, found);
-        }
+    // Two cells along each axis at most: bit a of `corner` is the side on
+    // axis a.
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Cell cell = low;
+      bool is_new = true;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        if ((corner >> axis & 1U) == 0) continue;
+        is_new = is_new && low[axis] != high[axis];
+        cell[axis] = high[axis];
       }
+      if (is_new) found = FindInCell(x, cell, found);
     }
     return found;
   }

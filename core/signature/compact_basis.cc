@@ -85,7 +85,7 @@ absl::StatusOr<Eigen::MatrixXf> FindAxes(const Eigen::MatrixXf& rows,
   const Eigen::MatrixXd seen = (rows * basis).cast<double>();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(seen.transpose() *
                                                               seen);
-  const Eigen::VectorXd variances = solver.eigenvalues();
+  const Eigen::VectorXd& variances = solver.eigenvalues();
   Eigen::Index kept = 0;
   while (kept < std::min<Eigen::Index>(searched, kCompactDims) &&
          variances[searched - 1 - kept] >

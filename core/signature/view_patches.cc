@@ -47,15 +47,16 @@ Eigen::Index DescribeView(const DepthImage& image, Eigen::Index row,
     const auto pixel = shape[static_cast<size_t>(
         (k + jitter) / kPatchesOfView * static_cast<double>(shape.size()))];
     const PatchSize& size = kSizes[static_cast<size_t>(k) % kSizes.size()];
-    Patch patch{static_cast<float>(pixel % kImageSize),
-                static_cast<float>(pixel / kImageSize),
+    const int column = pixel % kImageSize;
+    const int line = pixel / kImageSize;
+    Patch patch{static_cast<float>(column), static_cast<float>(line),
                 static_cast<float>(size.side * kImageSize)};
     if (size.halved) {
       patch = {(patch.x - 0.5F) / 2, (patch.y - 0.5F) / 2, patch.side / 2};
     }
     if (!DescribePatch(size.halved ? half : full, patch, histogram)) continue;
-    const float dx = static_cast<float>(pixel % kImageSize) - kMiddle;
-    const float dy = static_cast<float>(pixel / kImageSize) - kMiddle;
+    const float dx = static_cast<float>(column) - kMiddle;
+    const float dy = static_cast<float>(line) - kMiddle;
     patches.row(row++) << histogram, std::hypot(dx, dy) / kMiddle,
         image[static_cast<size_t>(pixel)];
   }

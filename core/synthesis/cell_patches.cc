@@ -27,11 +27,11 @@ class Tracer {
     }
     CellPatches patches;
     patches.patch_of_edge.fill(-1);
-    std::array<int8_t, 12> patch_of_leader;
+    std::array<int32_t, 12> patch_of_leader;
     patch_of_leader.fill(-1);
     for (int edge = 0; edge < 12; ++edge) {
       if (!Crossed(edge)) continue;
-      int8_t& patch = patch_of_leader[static_cast<size_t>(Leader(edge))];
+      int32_t& patch = patch_of_leader[static_cast<size_t>(Leader(edge))];
       if (patch < 0) patch = patches.num_patches++;
       patches.patch_of_edge[static_cast<size_t>(edge)] = patch;
     }

@@ -16,8 +16,8 @@ namespace argmesh {
 // along axis a; bit 0 of i is its place on axis (a + 1) % 3, bit 1 the one on
 // axis (a + 2) % 3.
 struct CellPatches {
-  std::array<int8_t, 12> patch_of_edge;  // -1: the edge is not crossed
-  int8_t num_patches = 0;                // 0 .. 4
+  std::array<int32_t, 12> patch_of_edge;  // -1: the edge is not crossed
+  int32_t num_patches = 0;                // 0 .. 4
 };
 
 // The corner at the low end of an edge.

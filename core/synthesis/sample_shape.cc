@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -111,6 +112,7 @@ absl::StatusOr<SampleShape> PolygonizePose(const SampleClass& sample,
 
 std::vector<std::string_view> SampleClassNames() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kClasses));
   for (const SampleClass& sample : kClasses) names.push_back(sample.name);
   return names;
 }

@@ -124,7 +124,6 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
                                 Work work) {
   Lane& lane = this->lane(work_class);
   absl::Status refusal;
-  bool start = false;
   {
     const std::lock_guard lock(mutex_);
     if (closed_) {
@@ -132,7 +131,6 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
     } else if (lane.load.running < lane.load.threads && lane.queue.empty()) {
       ++lane.load.running;
       ++lane.load.admitted;
-      start = true;
     } else if (static_cast<int>(lane.queue.size()) >= lane.max_queued) {
       refusal = Refusal("too many calls wait already", max_wait_);
     } else {
@@ -143,12 +141,13 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
            now + std::clamp(quarter, absl::ZeroDuration(), max_wait_)});
       lane.num_queued = static_cast<int>(lane.queue.size());
       ArmTimer(lane);
+      return;
     }
     if (!refusal.ok()) ++lane.load.refused;
   }
-  if (start) {
+  if (refusal.ok()) {
     Start(lane, std::move(work));
-  } else if (!refusal.ok()) {
+  } else {
     work(std::move(refusal));
   }
 }

@@ -51,6 +51,7 @@ absl::Status RerankShapes(ComputePool& pool, const StopToken& stop,
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return reranked[a] > reranked[b]; });
   std::vector<RankedShape> head;
+  head.reserve(order.size());
   for (const int i : order) {
     head.push_back(std::move(shapes[static_cast<size_t>(i)]));
   }

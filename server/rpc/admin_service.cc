@@ -102,9 +102,10 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
   return Serve(
       context, request, kMethod,
       [this, request, response](StoreAdmin& store) -> absl::Status {
-        const std::string id = request->snapshot_id();
+        const std::string& id = request->snapshot_id();
         ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
-        const auto work = [&store, id](const RunControl& control)
+        const auto work = [&store,
+                           id = std::string(id)](const RunControl& control)
             -> absl::StatusOr<google::protobuf::Any> {
           ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
                                    store.CreateSnapshot(id, control.stop));

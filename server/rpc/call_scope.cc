@@ -130,7 +130,7 @@ grpc::Status CallScope::Report(const absl::Status& status) {
     const std::lock_guard lock(mutex_);
     record = record_;
   }
-  const grpc::Status report = ToGrpcStatus(Describe(status, record));
+  grpc::Status report = ToGrpcStatus(Describe(status, record));
   environment_.telemetry.CallFinished(record);
   return report;
 }
@@ -144,7 +144,7 @@ google::rpc::Status CallScope::ReportItem(const ShapeRef& item,
   }
   record.resource = absl::StrCat("collections/", item.collection, "/shapes/",
                                  item.id.substr(0, kMaxLoggedName));
-  const google::rpc::Status report = Describe(status, record);
+  google::rpc::Status report = Describe(status, record);
   environment_.telemetry.ItemFinished(record);
   return report;
 }

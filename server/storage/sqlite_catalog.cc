@@ -63,7 +63,7 @@ StoreLoad SqliteCatalog::Load() const {
   return load;
 }
 
-SqliteCatalog::~SqliteCatalog() { (void)Close(); }
+SqliteCatalog::~SqliteCatalog() { (void)SqliteCatalog::Close(); }
 
 absl::Status SqliteCatalog::Close() {
   const std::lock_guard lock(close_mutex_);

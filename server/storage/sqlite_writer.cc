@@ -51,13 +51,13 @@ absl::Status SqliteWriter::Write(int64_t bytes, const Change& change) {
   return done.get();
 }
 
-bool SqliteWriter::TakeItem(Item& item) {
+std::optional<SqliteWriter::Item> SqliteWriter::TakeItem() {
   const std::lock_guard lock(mutex_);
-  if (queue_.empty()) return false;
-  item = std::move(queue_.front());
+  if (queue_.empty()) return std::nullopt;
+  Item item = std::move(queue_.front());
   queue_.pop_front();
   queued_bytes_ -= item.bytes;
-  return true;
+  return item;
 }
 
 void SqliteWriter::Run() {
@@ -67,14 +67,13 @@ void SqliteWriter::Run() {
       wake_.wait(lock, [this] { return closing_ || !queue_.empty(); });
       if (queue_.empty()) return;
     }
-    Item item;
-    if (TakeItem(item)) RunGroup(std::move(item));
+    if (auto item = TakeItem()) RunGroup(*std::move(item));
   }
 }
 
 absl::Status SqliteWriter::RunChange(const Change& change) {
   ARGMESH_RETURN_IF_ERROR(connection_->Execute("SAVEPOINT change"));
-  const absl::Status status = change(*connection_);
+  absl::Status status = change(*connection_);
   // Some errors (a full disk) end the whole transaction by themselves.
   if (!connection_->in_transaction()) return status;
   if (!status.ok()) {
@@ -89,19 +88,22 @@ void SqliteWriter::RunGroup(Item first) {
   std::vector<std::pair<Item, absl::Status>> group;
   absl::Status transaction = connection_->Execute("BEGIN IMMEDIATE");
   int64_t bytes = 0;
-  Item item = std::move(first);
-  do {
-    bytes += item.bytes;
+  const auto has_room = [&] {
+    return transaction.ok() && group.size() < options_.group_changes &&
+           bytes < options_.group_bytes &&
+           absl::Now() - start < options_.group_time;
+  };
+  for (std::optional<Item> item = std::move(first); item.has_value();
+       item = has_room() ? TakeItem() : std::nullopt) {
+    bytes += item->bytes;
     absl::Status status =
-        transaction.ok() ? RunChange(*item.change) : transaction;
+        transaction.ok() ? RunChange(*item->change) : transaction;
     if (transaction.ok() && !connection_->in_transaction()) {
       transaction =
           status.ok() ? absl::InternalError("lost the transaction") : status;
     }
-    group.emplace_back(std::move(item), std::move(status));
-  } while (transaction.ok() && group.size() < options_.group_changes &&
-           bytes < options_.group_bytes &&
-           absl::Now() - start < options_.group_time && TakeItem(item));
+    group.emplace_back(*std::move(item), std::move(status));
+  }
   if (transaction.ok()) transaction = connection_->Execute("COMMIT");
   if (connection_->in_transaction()) {
     (void)connection_->Execute("ROLLBACK");

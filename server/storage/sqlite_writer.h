@@ -14,6 +14,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -71,7 +72,7 @@ class SqliteWriter {
   void Run();
   void RunGroup(Item first);
   absl::Status RunChange(const Change& change);
-  bool TakeItem(Item& item);  // without waiting
+  std::optional<Item> TakeItem();  // without waiting
   void Checkpoint();
   absl::Status Truncate();
   static int OnCommit(void* writer, sqlite3*, const char*, int pages);

@@ -33,7 +33,7 @@ TEST(PatchesOfCell, KeepsEveryPatchAtLeastThreeEdgesLong) {
     EXPECT_LE(patches.num_patches, 4);
     for (int patch = 0; patch < patches.num_patches; ++patch) {
       int edges = 0;
-      for (const int8_t p : patches.patch_of_edge) edges += p == patch ? 1 : 0;
+      for (const int32_t p : patches.patch_of_edge) edges += p == patch ? 1 : 0;
       EXPECT_GE(edges, 3) << "config " << config;
     }
   }

@@ -33,7 +33,7 @@ class RestoreTest : public ::testing::Test {
     EXPECT_TRUE(samples_.snapshots().CreateSnapshot("one", {}).ok());
     fs::copy_file(samples_.path() / "snapshots" / "one.tar", snapshot_);
     EXPECT_TRUE(samples_.catalog()
-                    .DeleteShape({.collection = "cups", .id = "cup-1"})
+                    .DeleteShape({"cups", "cup-1", /*etag=*/"", {}})
                     .ok());
     samples_.AddCollection("knives");
     samples_.AddShape("knives", "knife-1", 11);
