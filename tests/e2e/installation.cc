@@ -20,6 +20,15 @@ std::string ReadAll(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+int CountOf(const std::string& text, const std::string& in) {
+  int count = 0;
+  for (size_t at = in.find(text); at != std::string::npos;
+       at = in.find(text, at + text.size())) {
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 nlohmann::ordered_json CommandOutcome::Json() const {
@@ -53,10 +62,10 @@ bool Installation::StartServer(const std::vector<std::string>& more) {
   return false;
 }
 
-bool Installation::WaitForLog(const std::string& text) {
+bool Installation::WaitForLog(const std::string& text, int times) {
   const auto end = std::chrono::steady_clock::now() + kStartTimeout;
   while (std::chrono::steady_clock::now() < end && ServerRuns()) {
-    if (ServerLog().find(text) != std::string::npos) return true;
+    if (CountOf(text, ServerLog()) >= times) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return false;

@@ -32,8 +32,9 @@ class Installation {
   // it ran before, with `more` options. False with its log on stderr when it
   // does not come up.
   bool StartServer(const std::vector<std::string>& more = {});
-  // Waits until the server has logged `text`; false when it does not.
-  bool WaitForLog(const std::string& text);
+  // Waits until the server has logged `text` so many times; false when it does
+  // not.
+  bool WaitForLog(const std::string& text, int times = 1);
   void SignalServer(int signal);
   bool ServerRuns();
   // What the running or last server has logged.

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "tests/e2e/installation.h"
 
@@ -29,10 +31,29 @@ class ReloadTest : public testing::Test {
 
   bool Reload(const std::string& answer) {
     installation_.SignalServer(SIGHUP);
-    return installation_.WaitForLog(answer);
+    return installation_.WaitForLog(answer, ++reloads_[answer]);
+  }
+
+  // `argmesh keys limit` with these words, which then count.
+  void Limit(const std::string& id, const std::vector<std::string>& limits) {
+    std::vector<std::string> words = {"keys", "limit", "--file",
+                                      Path("keys.json"), id};
+    words.insert(words.end(), limits.begin(), limits.end());
+    const CommandOutcome limited = installation_.Run(words);
+    ASSERT_EQ(limited.exit_code, 0) << limited.err;
+    ASSERT_TRUE(Reload("\"msg\":\"reloaded\""));
+  }
+
+  void ExpectLimited(const std::string& id) {
+    const CommandOutcome info =
+        installation_.Run({"info", "--json", "--key-file", Path(id + ".key")});
+    EXPECT_EQ(info.exit_code, 1);
+    EXPECT_EQ(info.Json()["error"]["code"], "RESOURCE_EXHAUSTED") << info.out;
+    EXPECT_EQ(info.Json()["error"]["reason"], "KEY_LIMIT_EXCEEDED") << info.out;
   }
 
   Installation installation_;
+  std::map<std::string, int> reloads_;  // by the server's answer
 };
 
 TEST_F(ReloadTest, LetsKeysInAndOut) {
@@ -56,6 +77,26 @@ TEST_F(ReloadTest, LetsKeysInAndOut) {
       {"delete", "--collection", "parts", "--key-file", Path("ci.key")});
   EXPECT_NE(denied.err.find("[PERMISSION_DENIED]"), std::string::npos)
       << denied.err;
+}
+
+// The rate is so low that no call is given back while the test runs.
+TEST_F(ReloadTest, LimitsOneKeyUntilItsLimitIsTakenAway) {
+  MakeKey("ci", "read");
+  MakeKey("ops", "admin");
+  ASSERT_TRUE(installation_.StartServer({"--keys", Path("keys.json")}));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(InfoAs("ci").exit_code, 0);
+
+  Limit("ci", {"--rate", "0.0001", "--burst", "2"});
+  EXPECT_EQ(InfoAs("ci").exit_code, 0);
+  EXPECT_EQ(InfoAs("ci").exit_code, 0);
+  ExpectLimited("ci");
+  ExpectLimited("ci");
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(InfoAs("ops").exit_code, 0);
+  ASSERT_TRUE(Reload("\"msg\":\"reloaded\""));
+  ExpectLimited("ci");  // a reload is no new burst
+
+  Limit("ci", {});
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(InfoAs("ci").exit_code, 0);
 }
 
 TEST_F(ReloadTest, KeepsTheKeysWhileTheFileIsBad) {
