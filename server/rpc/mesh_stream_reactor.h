@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/status_macros.h"
 #include "server/rpc/convert_upload.h"
 #include "server/rpc/reading_reactor.h"
 
@@ -85,11 +86,10 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
 
  private:
   absl::Status StartUpload(const Request& first) {
-    absl::StatusOr<UploadAnnouncement> announced = Announced(first);
-    if (!announced.ok()) return announced.status();
-    auto upload = this->engine().StartUpload(*announced);
-    if (upload.ok()) upload_ = *std::move(upload);
-    return upload.status();
+    ARGMESH_ASSIGN_OR_RETURN(const UploadAnnouncement announced,
+                             Announced(first));
+    ARGMESH_ASSIGN_OR_RETURN(upload_, this->engine().StartUpload(announced));
+    return absl::OkStatus();
   }
 
   const MeshStreamPlan plan_;

@@ -89,6 +89,7 @@ absl::Status BatchDelete(Engine& engine,
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
                            NamedShapes(request));
   std::vector<std::string> ids;
+  ids.reserve(shapes.size());
   for (const ShapeRef& shape : shapes) ids.push_back(shape.id);
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
