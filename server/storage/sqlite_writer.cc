@@ -85,7 +85,7 @@ absl::Status SqliteWriter::RunChange(const Change& change) {
 
 void SqliteWriter::RunGroup(Item first) {
   const absl::Time start = absl::Now();
-  std::vector<std::pair<Item, absl::Status>> group;
+  Group group;
   absl::Status transaction = connection_->Execute("BEGIN IMMEDIATE");
   int64_t bytes = 0;
   const auto has_room = [&] {
@@ -108,6 +108,12 @@ void SqliteWriter::RunGroup(Item first) {
   if (connection_->in_transaction()) {
     (void)connection_->Execute("ROLLBACK");
   }
+  Answer(group, transaction, start);
+  Checkpoint();
+}
+
+void SqliteWriter::Answer(Group& group, const absl::Status& transaction,
+                          absl::Time start) {
   int64_t committed = 0;
   for (auto& [done, status] : group) {
     if (status.ok()) status = transaction;
@@ -121,7 +127,6 @@ void SqliteWriter::RunGroup(Item first) {
     load_.wal_bytes = wal_pages_ * page_bytes_;
   }
   for (auto& [done, status] : group) done.done.set_value(std::move(status));
-  Checkpoint();
 }
 
 void SqliteWriter::Checkpoint() {

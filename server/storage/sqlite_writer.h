@@ -16,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -68,9 +69,12 @@ class SqliteWriter {
     int64_t bytes = 0;
     std::promise<absl::Status> done;
   };
+  using Group = std::vector<std::pair<Item, absl::Status>>;
 
   void Run();
   void RunGroup(Item first);
+  // Tells every caller of the group what became of its change.
+  void Answer(Group& group, const absl::Status& transaction, absl::Time start);
   absl::Status RunChange(const Change& change);
   std::optional<Item> TakeItem();  // without waiting
   void Checkpoint();
