@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status_macros.h"
+#include "server/rpc/connection_acceptor.h"
 #include "server/rpc/listen_address.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/directory_mesh_store.h"
@@ -127,6 +128,7 @@ absl::Status Restore(const ServerOptions& options, std::ostream& out) {
 
 absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
     const ServerOptions& options, std::ostream& log) {
+  RaiseDescriptorLimit();
   std::unique_ptr<Serving> serving(new Serving());
   serving->options_ = options;
   ARGMESH_ASSIGN_OR_RETURN(const TelemetryOptions telemetry,

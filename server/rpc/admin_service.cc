@@ -73,7 +73,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::GetServerInfo(
     grpc::CallbackServerContext* context,
     const v1::GetServerInfoRequest* request,
     v1::GetServerInfoResponse* response) {
-  return UnaryReactor::Start(environment_, context, request,
+  return UnaryReactor::Start(environment_, context, {request, response},
                              {"AdminService.GetServerInfo"},
                              [this, response](const UnaryCall&) {
                                FillServerInfo(response);
@@ -82,13 +82,13 @@ grpc::ServerUnaryReactor* AdminServiceImpl::GetServerInfo(
 }
 
 grpc::ServerUnaryReactor* AdminServiceImpl::Serve(
-    grpc::CallbackServerContext* context,
-    const google::protobuf::Message* request, const char* method,
-    std::function<absl::Status(StoreAdmin&)> body) {
+    grpc::CallbackServerContext* context, const UnaryMessages& messages,
+    const char* method, std::function<absl::Status(StoreAdmin&)> body) {
   if (environment_.store_admin == nullptr) {
-    return UnaryReactor::NotServed(environment_, context, request, method);
+    return UnaryReactor::NotServed(environment_, context, messages.request,
+                                   method);
   }
-  return UnaryReactor::Start(environment_, context, request, {method},
+  return UnaryReactor::Start(environment_, context, messages, {method},
                              [this, body = std::move(body)](const UnaryCall&) {
                                return body(*environment_.store_admin);
                              });
@@ -100,7 +100,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
     google::longrunning::Operation* response) {
   static constexpr char kMethod[] = "AdminService.CreateSnapshot";
   return Serve(
-      context, request, kMethod,
+      context, {request, response}, kMethod,
       [this, request, response](StoreAdmin& store) -> absl::Status {
         const std::string& id = request->snapshot_id();
         ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
@@ -121,7 +121,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
 grpc::ServerUnaryReactor* AdminServiceImpl::GetSnapshot(
     grpc::CallbackServerContext* context, const v1::GetSnapshotRequest* request,
     v1::Snapshot* response) {
-  return Serve(context, request, "AdminService.GetSnapshot",
+  return Serve(context, {request, response}, "AdminService.GetSnapshot",
                [request, response](StoreAdmin& store) -> absl::Status {
                  ARGMESH_ASSIGN_OR_RETURN(
                      const std::string id,
@@ -137,7 +137,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::ListSnapshots(
     grpc::CallbackServerContext* context,
     const v1::ListSnapshotsRequest* request,
     v1::ListSnapshotsResponse* response) {
-  return Serve(context, request, "AdminService.ListSnapshots",
+  return Serve(context, {request, response}, "AdminService.ListSnapshots",
                [request, response](StoreAdmin& store) {
                  return ListPage(store, *request, response);
                });
@@ -145,8 +145,9 @@ grpc::ServerUnaryReactor* AdminServiceImpl::ListSnapshots(
 
 grpc::ServerUnaryReactor* AdminServiceImpl::DeleteSnapshot(
     grpc::CallbackServerContext* context,
-    const v1::DeleteSnapshotRequest* request, v1::DeleteSnapshotResponse*) {
-  return Serve(context, request, "AdminService.DeleteSnapshot",
+    const v1::DeleteSnapshotRequest* request,
+    v1::DeleteSnapshotResponse* response) {
+  return Serve(context, {request, response}, "AdminService.DeleteSnapshot",
                [request](StoreAdmin& store) -> absl::Status {
                  ARGMESH_ASSIGN_OR_RETURN(
                      const std::string id,
@@ -167,7 +168,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
     google::longrunning::Operation* response) {
   static constexpr char kMethod[] = "AdminService.VerifyStorage";
   return Serve(
-      context, request, kMethod,
+      context, {request, response}, kMethod,
       [this, request, response](StoreAdmin& store) -> absl::Status {
         if (!request->collection().empty()) {
           return FieldInvalid("collection",

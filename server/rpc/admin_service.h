@@ -8,6 +8,7 @@
 #include "absl/time/time.h"
 #include "argmesh/v1/admin_service.grpc.pb.h"
 #include "server/rpc/service_environment.h"
+#include "server/rpc/unary_reactor.h"
 
 namespace argmesh {
 
@@ -47,9 +48,8 @@ class AdminServiceImpl final : public v1::AdminService::CallbackService {
  private:
   // `body` on the pool; METHOD_NOT_SERVED where there is no StoreAdmin.
   grpc::ServerUnaryReactor* Serve(
-      grpc::CallbackServerContext* context,
-      const google::protobuf::Message* request, const char* method,
-      std::function<absl::Status(StoreAdmin&)> body);
+      grpc::CallbackServerContext* context, const UnaryMessages& messages,
+      const char* method, std::function<absl::Status(StoreAdmin&)> body);
   void FillServerInfo(v1::GetServerInfoResponse* response) const;
 
   ServiceEnvironment& environment_;

@@ -17,8 +17,8 @@
 
 namespace argmesh {
 
-// A call as the registry sees it. Both functions must not block, throw, or
-// call the registry.
+// A call as the registry sees it. The functions must not block, throw, or call
+// who calls them.
 class LiveCall {
  public:
   virtual ~LiveCall() = default;
@@ -26,6 +26,8 @@ class LiveCall {
   virtual void OnTick(absl::Time) {}
   // Once: the server is going down and waits at most `grace`.
   virtual void OnDrain(absl::Duration) {}
+  // Its answer takes memory and is not taken.
+  virtual void OnNotTaken() {}
 };
 
 class CallRegistry {

@@ -16,7 +16,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::CreateCollection(
     grpc::CallbackServerContext* context,
     const v1::CreateCollectionRequest* request, v1::Collection* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"CollectionService.CreateCollection"},
+      environment_, context, {request, response},
+      {"CollectionService.CreateCollection"},
       [this, request, response](const UnaryCall& call) -> absl::Status {
         NewCollection spec;
         ARGMESH_RETURN_IF_ERROR(
@@ -42,7 +43,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::GetCollection(
     grpc::CallbackServerContext* context,
     const v1::GetCollectionRequest* request, v1::Collection* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"CollectionService.GetCollection"},
+      environment_, context, {request, response},
+      {"CollectionService.GetCollection"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseCollectionName("name", request->name()));
@@ -58,7 +60,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::ListCollections(
     const v1::ListCollectionsRequest* request,
     v1::ListCollectionsResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"CollectionService.ListCollections"},
+      environment_, context, {request, response},
+      {"CollectionService.ListCollections"},
       [this, request, response](const UnaryCall& call) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const CollectionPage page,
                                  environment_.engine.ListCollections(
@@ -79,7 +82,8 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::UpdateCollection(
     grpc::CallbackServerContext* context,
     const v1::UpdateCollectionRequest* request, v1::Collection* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"CollectionService.UpdateCollection"},
+      environment_, context, {request, response},
+      {"CollectionService.UpdateCollection"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(CollectionPatch patch, FromProto(*request));
         ARGMESH_ASSIGN_OR_RETURN(
@@ -92,9 +96,11 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::UpdateCollection(
 
 grpc::ServerUnaryReactor* CollectionServiceImpl::DeleteCollection(
     grpc::CallbackServerContext* context,
-    const v1::DeleteCollectionRequest* request, v1::DeleteCollectionResponse*) {
+    const v1::DeleteCollectionRequest* request,
+    v1::DeleteCollectionResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"CollectionService.DeleteCollection"},
+      environment_, context, {request, response},
+      {"CollectionService.DeleteCollection"},
       [this, request](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseCollectionName("name", request->name()));
@@ -109,7 +115,7 @@ grpc::ServerUnaryReactor* CollectionServiceImpl::ReindexCollection(
     google::longrunning::Operation* response) {
   static constexpr char kMethod[] = "CollectionService.ReindexCollection";
   return UnaryReactor::Start(
-      environment_, context, request, {kMethod},
+      environment_, context, {request, response}, {kMethod},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseCollectionName("name", request->name()));

@@ -66,6 +66,7 @@ class GuardedReactor
   }
 
   void OnDone() final {
+    environment().unread.Remove(this);
     environment().calls.Leave(this);
     self_.reset();  // may delete this
   }
@@ -73,6 +74,8 @@ class GuardedReactor
  protected:
   // The call's first step.
   virtual void Begin() = 0;
+  // The call is about to be ended with `status`.
+  virtual void Finishing(const absl::Status&) {}
   // The caller went away, or the deadline passed. stop() says so already.
   virtual void Cancelled() {}
 
@@ -89,6 +92,7 @@ class GuardedReactor
     // Before the client can know: its next call must not be refused for this
     // one.
     ReleaseTicket();
+    Finishing(status);
     this->Finish(scope_.Report(status));
   }
 

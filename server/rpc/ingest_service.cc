@@ -53,11 +53,11 @@ grpc::ServerUnaryReactor* IngestServiceImpl::ImportShapes(
     grpc::CallbackServerContext* context,
     const v1::ImportShapesRequest* request,
     google::longrunning::Operation* response) {
-  return UnaryReactor::Start(environment_, context, request, {kImportMethod},
-                             [this, request, response](const UnaryCall&) {
-                               return StartImport(environment_, *request,
-                                                  response);
-                             });
+  return UnaryReactor::Start(
+      environment_, context, {request, response}, {kImportMethod},
+      [this, request, response](const UnaryCall&) {
+        return StartImport(environment_, *request, response);
+      });
 }
 
 }  // namespace argmesh

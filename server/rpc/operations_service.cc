@@ -41,7 +41,7 @@ grpc::ServerUnaryReactor* OperationsServiceImpl::ListOperations(
     const google::longrunning::ListOperationsRequest* request,
     google::longrunning::ListOperationsResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"Operations.ListOperations"},
+      environment_, context, {request, response}, {"Operations.ListOperations"},
       [this, request, response](const UnaryCall&) {
         return List(environment_.operations, *request, response);
       });
@@ -52,7 +52,7 @@ grpc::ServerUnaryReactor* OperationsServiceImpl::GetOperation(
     const google::longrunning::GetOperationRequest* request,
     google::longrunning::Operation* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"Operations.GetOperation"},
+      environment_, context, {request, response}, {"Operations.GetOperation"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                                  ParseOperationName("name", request->name()));
@@ -64,27 +64,29 @@ grpc::ServerUnaryReactor* OperationsServiceImpl::GetOperation(
 grpc::ServerUnaryReactor* OperationsServiceImpl::DeleteOperation(
     grpc::CallbackServerContext* context,
     const google::longrunning::DeleteOperationRequest* request,
-    google::protobuf::Empty*) {
-  return UnaryReactor::Start(
-      environment_, context, request, {"Operations.DeleteOperation"},
-      [this, request](const UnaryCall&) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
-                                 ParseOperationName("name", request->name()));
-        return environment_.operations.Delete(id);
-      });
+    google::protobuf::Empty* response) {
+  return UnaryReactor::Start(environment_, context, {request, response},
+                             {"Operations.DeleteOperation"},
+                             [this, request](const UnaryCall&) -> absl::Status {
+                               ARGMESH_ASSIGN_OR_RETURN(
+                                   const std::string id,
+                                   ParseOperationName("name", request->name()));
+                               return environment_.operations.Delete(id);
+                             });
 }
 
 grpc::ServerUnaryReactor* OperationsServiceImpl::CancelOperation(
     grpc::CallbackServerContext* context,
     const google::longrunning::CancelOperationRequest* request,
-    google::protobuf::Empty*) {
-  return UnaryReactor::Start(
-      environment_, context, request, {"Operations.CancelOperation"},
-      [this, request](const UnaryCall&) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
-                                 ParseOperationName("name", request->name()));
-        return environment_.operations.Cancel(id);
-      });
+    google::protobuf::Empty* response) {
+  return UnaryReactor::Start(environment_, context, {request, response},
+                             {"Operations.CancelOperation"},
+                             [this, request](const UnaryCall&) -> absl::Status {
+                               ARGMESH_ASSIGN_OR_RETURN(
+                                   const std::string id,
+                                   ParseOperationName("name", request->name()));
+                               return environment_.operations.Cancel(id);
+                             });
 }
 
 grpc::ServerUnaryReactor* OperationsServiceImpl::WaitOperation(

@@ -5,6 +5,7 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
 #include <grpcpp/impl/server_builder_plugin.h>
+#include <grpcpp/resource_quota.h>
 
 #include <algorithm>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include "core/base/status_macros.h"
 #include "server/rpc/admin_service.h"
 #include "server/rpc/collection_service.h"
+#include "server/rpc/connection_acceptor.h"
 #include "server/rpc/ingest_service.h"
 #include "server/rpc/listen_address.h"
 #include "server/rpc/operations_service.h"
@@ -31,6 +33,7 @@ constexpr const char* kOtherServices[] = {
     "argmesh.v1.IngestService", "argmesh.v1.AdminService"};
 constexpr char kLiveness[] = "liveness";
 
+constexpr size_t kMaxTransportBytes = 512 << 20;
 constexpr int kMillisPerSecond = 1000;
 constexpr absl::Duration kShutdownPatience = absl::Milliseconds(200);
 
@@ -48,10 +51,17 @@ class WithoutReflection final : public grpc::ServerBuilderOption {
 };
 
 void SetChannelArguments(grpc::ServerBuilder& builder) {
-  // Two servers on one port would share its calls without a word.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
   builder.SetMaxSendMessageSize(kMaxMessageBytes);
+  // The limit counts what is received: gRPC unpacks a message whatever it grows
+  // to. Who compresses gets UNIMPLEMENTED, and nothing is unpacked.
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);
+  // Requests that have not come whole, and all else that connections hold:
+  // near it gRPC lets peers send less and cuts streams.
+  grpc::ResourceQuota quota("argmesh");
+  builder.SetResourceQuota(quota.Resize(kMaxTransportBytes));
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 128);
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 16 << 10);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 60 * kMillisPerSecond);
@@ -141,8 +151,10 @@ class RpcServer::Impl {
     }
     ARGMESH_ASSIGN_OR_RETURN(const auto credentials,
                              MakeServerCredentials(options.tls));
-    int port = 0;
-    builder.AddListeningPort(address.ToString(), credentials, &port);
+    ARGMESH_ASSIGN_OR_RETURN(const int port, acceptor_.Listen(address));
+    using Experimental = grpc::ServerBuilder::experimental_type;
+    auto sink = builder.experimental().AddExternalConnectionAcceptor(
+        Experimental::ExternalConnectionType::FROM_FD, credentials);
     builder.RegisterService(&collections_)
         .RegisterService(&shapes_)
         .RegisterService(&ingest_)
@@ -150,11 +162,10 @@ class RpcServer::Impl {
         .RegisterService(&admin_)
         .RegisterService(&operations_);
     server_ = builder.BuildAndStart();
-    if (server_ == nullptr || port == 0) {
-      return absl::UnavailableError(absl::StrFormat(
-          "cannot listen on %s: in use, or not an address of this machine",
-          address.ToString()));
+    if (server_ == nullptr) {
+      return absl::InternalError("gRPC does not start a server");
     }
+    acceptor_.Serve(std::move(sink));
     address.port = port;
     port_ = port;
     address_ = address.ToString();
@@ -175,6 +186,7 @@ class RpcServer::Impl {
     environment_.operations.CancelAll();
     clean_ = environment_.calls.WaitUntilIdle(deadline);
     health_->Detach();
+    acceptor_.Stop();
     // Of ours nothing is left, or it is late; only health watches still run.
     server_->Shutdown(absl::ToChronoTime(absl::Now() + kShutdownPatience));
     server_->Wait();
@@ -206,6 +218,7 @@ class RpcServer::Impl {
   bool clean_ = true;
   std::string address_;
   int port_ = 0;
+  ConnectionAcceptor acceptor_;
   std::unique_ptr<grpc::Server> server_;
 };
 
@@ -216,6 +229,15 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
               environment_.calls.in_flight());
   sheet.Gauge("argmesh_draining", "1 once the server is going down.",
               environment_.calls.draining() ? 1 : 0);
+  sheet.Counter("argmesh_connections_refused_total",
+                "Connections that were closed for want of descriptors.",
+                static_cast<double>(acceptor_.refused()));
+  sheet.Gauge("argmesh_unread_answer_bytes",
+              "Of answers that are made and not taken.",
+              static_cast<double>(environment_.unread.bytes()));
+  sheet.Counter("argmesh_unread_answers_cut_total",
+                "Answers that were cut because of the memory they took.",
+                static_cast<double>(environment_.unread.cut()));
   for (const Admission* admission :
        {&environment_.searches, &environment_.uploads, &environment_.ingests}) {
     const GaugeSheet::Labels labels = {{"class", admission->what()}};

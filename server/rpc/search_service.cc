@@ -106,7 +106,7 @@ grpc::ServerUnaryReactor* SearchServiceImpl::SearchShapes(
     const v1::SearchShapesRequest* request,
     v1::SearchShapesResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request,
+      environment_, context, {request, response},
       {"SearchService.SearchShapes", WorkClass::kSearch,
        &environment_.searches},
       [this, request, response](const UnaryCall& call) -> absl::Status {
@@ -127,7 +127,7 @@ grpc::ServerUnaryReactor* SearchServiceImpl::BatchSearchShapes(
     grpc::CallbackServerContext* context,
     const v1::BatchSearchShapesRequest* request,
     v1::BatchSearchShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, request,
+  return UnaryReactor::Start(environment_, context, {request, response},
                              {"SearchService.BatchSearchShapes",
                               WorkClass::kSearch, &environment_.searches},
                              [this, request, response](const UnaryCall& call) {
@@ -140,7 +140,7 @@ grpc::ServerUnaryReactor* SearchServiceImpl::CompareShapes(
     grpc::CallbackServerContext* context,
     const v1::CompareShapesRequest* request,
     v1::CompareShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, request,
+  return UnaryReactor::Start(environment_, context, {request, response},
                              {"SearchService.CompareShapes", WorkClass::kSearch,
                               &environment_.searches},
                              [this, request, response](const UnaryCall& call) {

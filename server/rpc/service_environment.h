@@ -14,6 +14,7 @@
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
 #include "server/rpc/operation_registry.h"
+#include "server/rpc/unread_answers.h"
 #include "server/telemetry/telemetry.h"
 
 namespace argmesh {
@@ -21,6 +22,9 @@ namespace argmesh {
 // Of one message, both ways; and of what the server puts into one.
 inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
+
+// Of all answers together that are made and not taken.
+inline constexpr int64_t kMaxUnreadBytes = 128 << 20;
 
 inline constexpr int kMaxPageSize = 1000;
 inline constexpr int kMaxBatchSearches = 100;
@@ -70,6 +74,7 @@ struct ServiceEnvironment {
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
+  UnreadAnswers unread{kMaxUnreadBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served
   const ImportSource* import_source = nullptr;  // none: IMPORT_NOT_ENABLED
   OperationRegistry operations;

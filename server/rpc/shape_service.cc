@@ -109,7 +109,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::CreateShape(
     grpc::CallbackServerContext* context, const v1::CreateShapeRequest* request,
     v1::Shape* response) {
   return UnaryReactor::Start(
-      environment_, context, request,
+      environment_, context, {request, response},
       {"ShapeService.CreateShape", WorkClass::kCompute, &environment_.uploads},
       [this, request, response](const UnaryCall& call) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(NewShape shape, FromProto(*request));
@@ -131,7 +131,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
     grpc::CallbackServerContext* context, const v1::GetShapeRequest* request,
     v1::Shape* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.GetShape"},
+      environment_, context, {request, response}, {"ShapeService.GetShape"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
                                  ParseShapeName("name", request->name()));
@@ -146,7 +146,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::ListShapes(
     grpc::CallbackServerContext* context, const v1::ListShapesRequest* request,
     v1::ListShapesResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.ListShapes"},
+      environment_, context, {request, response}, {"ShapeService.ListShapes"},
       [this, request, response](const UnaryCall&) {
         return List(environment_.engine, *request, response);
       });
@@ -156,7 +156,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::UpdateShape(
     grpc::CallbackServerContext* context, const v1::UpdateShapeRequest* request,
     v1::Shape* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.UpdateShape"},
+      environment_, context, {request, response}, {"ShapeService.UpdateShape"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(ShapePatch patch, FromProto(*request));
         ARGMESH_ASSIGN_OR_RETURN(
@@ -171,7 +171,7 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
     grpc::CallbackServerContext* context, const v1::DeleteShapeRequest* request,
     v1::DeleteShapeResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.DeleteShape"},
+      environment_, context, {request, response}, {"ShapeService.DeleteShape"},
       [this, request, response](const UnaryCall& call) -> absl::Status {
         ShapeRemoval removal;
         ARGMESH_ASSIGN_OR_RETURN(removal.shape,
@@ -189,22 +189,24 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
     grpc::CallbackServerContext* context,
     const v1::BatchGetShapesRequest* request,
     v1::BatchGetShapesResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.BatchGetShapes"},
-      [this, request, response](const UnaryCall& call) {
-        return BatchGet(environment_.engine, *request, call.stop, response);
-      });
+  return UnaryReactor::Start(environment_, context, {request, response},
+                             {"ShapeService.BatchGetShapes"},
+                             [this, request, response](const UnaryCall& call) {
+                               return BatchGet(environment_.engine, *request,
+                                               call.stop, response);
+                             });
 }
 
 grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(
     grpc::CallbackServerContext* context,
     const v1::BatchDeleteShapesRequest* request,
     v1::BatchDeleteShapesResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.BatchDeleteShapes"},
-      [this, request, response](const UnaryCall& call) {
-        return BatchDelete(environment_.engine, *request, call.stop, response);
-      });
+  return UnaryReactor::Start(environment_, context, {request, response},
+                             {"ShapeService.BatchDeleteShapes"},
+                             [this, request, response](const UnaryCall& call) {
+                               return BatchDelete(environment_.engine, *request,
+                                                  call.stop, response);
+                             });
 }
 
 grpc::ServerWriteReactor<v1::DownloadMeshResponse>*
@@ -218,7 +220,8 @@ grpc::ServerUnaryReactor* ShapeServiceImpl::GetShapeGraph(
     const v1::GetShapeGraphRequest* request,
     v1::GetShapeGraphResponse* response) {
   return UnaryReactor::Start(
-      environment_, context, request, {"ShapeService.GetShapeGraph"},
+      environment_, context, {request, response},
+      {"ShapeService.GetShapeGraph"},
       [this, request, response](const UnaryCall&) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(*response,
                                  AnswerGraph(environment_.engine, *request));

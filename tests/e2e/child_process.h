@@ -26,6 +26,7 @@ class ChildProcess {
   std::string Out() const;
   std::string Err() const;
 
+  pid_t pid() const { return pid_; }
   void Signal(int signal) const;
   bool Running();
   // Waits for the end: the exit code, or 128 + the signal that ended it.

@@ -37,6 +37,7 @@ class Installation {
   bool WaitForLog(const std::string& text, int times = 1);
   void SignalServer(int signal);
   bool ServerRuns();
+  pid_t server_pid() const { return server_->pid(); }
   // What the running or last server has logged.
   std::string ServerLog() const;
   // Waits for the server's end.

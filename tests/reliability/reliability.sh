@@ -12,6 +12,8 @@ if [[ ${2:-} == --full ]]; then
   export ARGMESH_FAILPOINT_TIMES=${ARGMESH_FAILPOINT_TIMES:-25}
   export ARGMESH_POWER_LOSS_IMAGES=${ARGMESH_POWER_LOSS_IMAGES:-1000}
   export ARGMESH_MODEL_OPERATIONS=${ARGMESH_MODEL_OPERATIONS:-20000}
+  export ARGMESH_HOSTILE_PEERS=${ARGMESH_HOSTILE_PEERS:-10000}
+  export ARGMESH_SLOW_PEER_SECONDS=${ARGMESH_SLOW_PEER_SECONDS:-60}
   export ARGMESH_DAMAGED_SNAPSHOTS=${ARGMESH_DAMAGED_SNAPSHOTS:-5000}
 fi
 
@@ -51,6 +53,7 @@ row "stop with calls in flight" lifecycle_test \
   '*CallInFlight*:*WhileItDrains:*WhenTheGraceIsOver'
 row "same answers after restart" kill_test '*.AnswersTheSame*'
 row "kill -9 in an ingest" kill_test '*.LosesNothing*'
+row "hostile peers" hostile_peers_test '*'
 
 printf '\n'
 printf '%s\n' "${table[@]}"

@@ -1,0 +1,116 @@
+#include "tests/reliability/small_service.h"
+
+#include <chrono>
+
+#include "core/mesh/mesh_write.h"
+#include "tests/support/test_meshes.h"
+
+namespace argmesh {
+namespace {
+
+constexpr auto kDeadline = std::chrono::seconds(20);
+constexpr int kVertexBudget = 600;
+constexpr double kMajorRadius = 2;
+constexpr int kMajorSegments = 20;
+constexpr int kMinorSegments = 12;
+// So that the answer to a request of a few bytes may be large.
+constexpr int kNotes = 60;
+constexpr size_t kNoteBytes = 1000;
+
+std::string Said(const grpc::Status& status) {
+  if (status.ok()) return "";
+  return "code " + std::to_string(status.error_code()) + ": " +
+         status.error_message();
+}
+
+void SetDeadline(grpc::ClientContext& context) {
+  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+}
+
+}  // namespace
+
+std::string ShapeNamed(const std::string& id) {
+  return std::string(kParts) + "/shapes/" + id;
+}
+
+ShapeCaller::ShapeCaller(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  // Not the connection of another caller of this process.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  const auto channel = grpc::CreateCustomChannel(
+      address, grpc::InsecureChannelCredentials(), arguments);
+  collections_ = v1::CollectionService::NewStub(channel);
+  shapes_ = v1::ShapeService::NewStub(channel);
+  search_ = v1::SearchService::NewStub(channel);
+}
+
+std::string ShapeCaller::CreateCollection() {
+  grpc::ClientContext context;
+  SetDeadline(context);
+  v1::CreateCollectionRequest request;
+  request.set_collection_id("parts");
+  request.mutable_collection()->mutable_settings()->set_vertex_budget(
+      kVertexBudget);
+  v1::Collection response;
+  return Said(collections_->CreateCollection(&context, request, &response));
+}
+
+std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
+  grpc::ClientContext context;
+  SetDeadline(context);
+  v1::CreateShapeRequest request;
+  request.set_parent(kParts);
+  request.set_shape_id(id);
+  for (int i = 0; i < kNotes; ++i) {
+    (*request.mutable_shape()->mutable_metadata())["note" + std::to_string(i)] =
+        std::string(kNoteBytes, 'n');
+  }
+  request.mutable_mesh()->set_format(v1::MESH_FORMAT_OFF);
+  request.mutable_mesh()->set_data(*SerializeMesh(
+      MakeTorus(kMajorRadius, minor_radius, kMajorSegments, kMinorSegments),
+      MeshFormat::kOff));
+  v1::Shape response;
+  return Said(shapes_->CreateShape(&context, request, &response));
+}
+
+std::string ShapeCaller::Get(const std::string& id) {
+  grpc::ClientContext context;
+  SetDeadline(context);
+  v1::GetShapeRequest request;
+  request.set_name(ShapeNamed(id));
+  v1::Shape response;
+  return Said(shapes_->GetShape(&context, request, &response));
+}
+
+std::string ShapeCaller::Search(const std::string& id) {
+  grpc::ClientContext context;
+  SetDeadline(context);
+  v1::SearchShapesRequest request;
+  request.set_parent(kParts);
+  request.set_shape(ShapeNamed(id));
+  v1::SearchShapesResponse response;
+  return Said(search_->SearchShapes(&context, request, &response));
+}
+
+std::string ShapeCaller::Delete(const std::string& id) {
+  grpc::ClientContext context;
+  SetDeadline(context);
+  v1::DeleteShapeRequest request;
+  request.set_name(ShapeNamed(id));
+  v1::DeleteShapeResponse response;
+  return Said(shapes_->DeleteShape(&context, request, &response));
+}
+
+std::string SmallService::Start(int shapes,
+                                const std::vector<std::string>& options) {
+  if (!installation_.StartServer(options)) return "the server does not start";
+  ShapeCaller caller(address());
+  std::string failure = caller.CreateCollection();
+  for (int i = 0; failure.empty() && i < shapes; ++i) {
+    failure = caller.AddTorus("torus-" + std::to_string(i),
+                              0.3 + 0.7 * static_cast<double>(i) / shapes);
+  }
+  return failure;
+}
+
+}  // namespace argmesh
