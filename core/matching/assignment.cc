@@ -79,16 +79,17 @@ class Solver {
     done_.assign(cols_, 0);
     double base = 0;
     size_t at = row;
-    size_t col = Relax(at, base);
     while (true) {
+      const size_t col = Relax(at, base);
       base = shortest_[col];
       done_[col] = 1;
-      if (row_of_column_[col] < 0) break;
+      if (row_of_column_[col] < 0) {
+        UpdatePrices(row, base);
+        Flip(row, col);
+        return;
+      }
       at = static_cast<size_t>(row_of_column_[col]);
-      col = Relax(at, base);
     }
-    UpdatePrices(row, base);
-    Flip(row, col);
   }
 
   void UpdatePrices(size_t row, double length) {

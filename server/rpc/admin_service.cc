@@ -104,8 +104,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
       [this, request, response](StoreAdmin& store) -> absl::Status {
         const std::string& id = request->snapshot_id();
         ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
-        const auto work = [&store,
-                           id = std::string(id)](const RunControl& control)
+        const auto work = [&store, id](const RunControl& control)
             -> absl::StatusOr<google::protobuf::Any> {
           ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
                                    store.CreateSnapshot(id, control.stop));

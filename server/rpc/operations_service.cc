@@ -34,6 +34,22 @@ absl::Status List(const OperationRegistry& operations,
   return absl::OkStatus();
 }
 
+// A call that does something to the operation it names and answers nothing.
+template <typename Request>
+grpc::ServerUnaryReactor* ActOnNamed(
+    ServiceEnvironment& environment, grpc::CallbackServerContext* context,
+    const Request* request, google::protobuf::Empty* response,
+    const char* method,
+    absl::Status (OperationRegistry::*act)(std::string_view)) {
+  return UnaryReactor::Start(
+      environment, context, {request, response}, {method},
+      [&environment, request, act](const UnaryCall&) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                                 ParseOperationName("name", request->name()));
+        return (environment.operations.*act)(id);
+      });
+}
+
 }  // namespace
 
 grpc::ServerUnaryReactor* OperationsServiceImpl::ListOperations(
@@ -65,28 +81,16 @@ grpc::ServerUnaryReactor* OperationsServiceImpl::DeleteOperation(
     grpc::CallbackServerContext* context,
     const google::longrunning::DeleteOperationRequest* request,
     google::protobuf::Empty* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"Operations.DeleteOperation"},
-                             [this, request](const UnaryCall&) -> absl::Status {
-                               ARGMESH_ASSIGN_OR_RETURN(
-                                   const std::string id,
-                                   ParseOperationName("name", request->name()));
-                               return environment_.operations.Delete(id);
-                             });
+  return ActOnNamed(environment_, context, request, response,
+                    "Operations.DeleteOperation", &OperationRegistry::Delete);
 }
 
 grpc::ServerUnaryReactor* OperationsServiceImpl::CancelOperation(
     grpc::CallbackServerContext* context,
     const google::longrunning::CancelOperationRequest* request,
     google::protobuf::Empty* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"Operations.CancelOperation"},
-                             [this, request](const UnaryCall&) -> absl::Status {
-                               ARGMESH_ASSIGN_OR_RETURN(
-                                   const std::string id,
-                                   ParseOperationName("name", request->name()));
-                               return environment_.operations.Cancel(id);
-                             });
+  return ActOnNamed(environment_, context, request, response,
+                    "Operations.CancelOperation", &OperationRegistry::Cancel);
 }
 
 grpc::ServerUnaryReactor* OperationsServiceImpl::WaitOperation(

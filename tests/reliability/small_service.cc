@@ -17,14 +17,19 @@ constexpr int kMinorSegments = 12;
 constexpr int kNotes = 60;
 constexpr size_t kNoteBytes = 1000;
 
-std::string Said(const grpc::Status& status) {
+// Makes a call of `stub`: empty when it was answered, else why not.
+template <typename Stub, typename Request, typename Response>
+std::string Ask(Stub& stub,
+                grpc::Status (Stub::*call)(grpc::ClientContext*, const Request&,
+                                           Response*),
+                const Request& request) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  Response response;
+  const grpc::Status status = (stub.*call)(&context, request, &response);
   if (status.ok()) return "";
   return "code " + std::to_string(status.error_code()) + ": " +
          status.error_message();
-}
-
-void SetDeadline(grpc::ClientContext& context) {
-  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
 }
 
 }  // namespace
@@ -45,19 +50,15 @@ ShapeCaller::ShapeCaller(const std::string& address) {
 }
 
 std::string ShapeCaller::CreateCollection() {
-  grpc::ClientContext context;
-  SetDeadline(context);
   v1::CreateCollectionRequest request;
   request.set_collection_id("parts");
   request.mutable_collection()->mutable_settings()->set_vertex_budget(
       kVertexBudget);
-  v1::Collection response;
-  return Said(collections_->CreateCollection(&context, request, &response));
+  return Ask(*collections_, &v1::CollectionService::Stub::CreateCollection,
+             request);
 }
 
 std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
-  grpc::ClientContext context;
-  SetDeadline(context);
   v1::CreateShapeRequest request;
   request.set_parent(kParts);
   request.set_shape_id(id);
@@ -69,36 +70,20 @@ std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
   request.mutable_mesh()->set_data(*SerializeMesh(
       MakeTorus(kMajorRadius, minor_radius, kMajorSegments, kMinorSegments),
       MeshFormat::kOff));
-  v1::Shape response;
-  return Said(shapes_->CreateShape(&context, request, &response));
+  return Ask(*shapes_, &v1::ShapeService::Stub::CreateShape, request);
 }
 
 std::string ShapeCaller::Get(const std::string& id) {
-  grpc::ClientContext context;
-  SetDeadline(context);
   v1::GetShapeRequest request;
   request.set_name(ShapeNamed(id));
-  v1::Shape response;
-  return Said(shapes_->GetShape(&context, request, &response));
+  return Ask(*shapes_, &v1::ShapeService::Stub::GetShape, request);
 }
 
 std::string ShapeCaller::Search(const std::string& id) {
-  grpc::ClientContext context;
-  SetDeadline(context);
   v1::SearchShapesRequest request;
   request.set_parent(kParts);
   request.set_shape(ShapeNamed(id));
-  v1::SearchShapesResponse response;
-  return Said(search_->SearchShapes(&context, request, &response));
-}
-
-std::string ShapeCaller::Delete(const std::string& id) {
-  grpc::ClientContext context;
-  SetDeadline(context);
-  v1::DeleteShapeRequest request;
-  request.set_name(ShapeNamed(id));
-  v1::DeleteShapeResponse response;
-  return Said(shapes_->DeleteShape(&context, request, &response));
+  return Ask(*search_, &v1::SearchService::Stub::SearchShapes, request);
 }
 
 std::string SmallService::Start(int shapes,

@@ -29,10 +29,6 @@ class ShapeCaller {
   std::string AddTorus(const std::string& id, double minor_radius);
   std::string Get(const std::string& id);
   std::string Search(const std::string& id);
-  std::string Delete(const std::string& id);
-
-  v1::ShapeService::Stub& shapes() { return *shapes_; }
-  v1::SearchService::Stub& search() { return *search_; }
 
  private:
   std::unique_ptr<v1::CollectionService::Stub> collections_;
