@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <atomic>
+#include <future>
 #include <string>
+#include <vector>
 
+#include "absl/synchronization/notification.h"
 #include "core/base/sha256.h"
 #include "tests/integration/server_fixture.h"
 
@@ -14,31 +17,31 @@ namespace {
 
 constexpr int64_t kMaxMeshBytes = 8 << 20;
 
+TestServerOptions UploadTestOptions() {
+  TestServerOptions options;
+  options.engine.mesh_limits.max_bytes = kMaxMeshBytes;
+  options.rpc.limits.stream_idle_timeout = absl::Milliseconds(400);
+  options.rpc.limits.max_inflight_uploads = 2;
+  return options;
+}
+
+v1::UploadShapeHeader Header(const std::string& bytes) {
+  v1::UploadShapeHeader header;
+  header.set_parent("collections/c");
+  header.set_shape_id("s");
+  header.set_format(v1::MESH_FORMAT_OFF);
+  header.set_size_bytes(static_cast<int64_t>(bytes.size()));
+  header.set_sha256(ToHex(ComputeSha256(bytes)));
+  return header;
+}
+
 class UploadTest : public ::testing::Test {
  protected:
-  UploadTest() : server_(Options()) {}
-
-  static TestServerOptions Options() {
-    TestServerOptions options;
-    options.engine.mesh_limits.max_bytes = kMaxMeshBytes;
-    options.rpc.limits.stream_idle_timeout = absl::Milliseconds(400);
-    options.rpc.limits.max_inflight_uploads = 2;
-    return options;
-  }
+  UploadTest() : server_(UploadTestOptions()) {}
 
   void SetUp() override {
     server_.Start();
     server_.MakeCollection("c");
-  }
-
-  static v1::UploadShapeHeader Header(const std::string& bytes) {
-    v1::UploadShapeHeader header;
-    header.set_parent("collections/c");
-    header.set_shape_id("s");
-    header.set_format(v1::MESH_FORMAT_OFF);
-    header.set_size_bytes(static_cast<int64_t>(bytes.size()));
-    header.set_sha256(ToHex(ComputeSha256(bytes)));
-    return header;
   }
 
   grpc::Status Upload(const v1::UploadShapeHeader& header,
@@ -187,33 +190,43 @@ TEST_F(UploadTest, ForgetsAnUploadThatIsCancelledInTheMiddle) {
   EXPECT_FALSE(IsStored());
 }
 
-TEST_F(UploadTest, RefusesUploadsBeyondItsLimitWhileOthersAreOpen) {
-  const std::string off = TorusOff();
-  grpc::ClientContext contexts[2];
-  v1::Shape shapes[2];
-  std::unique_ptr<grpc::ClientWriter<v1::UploadShapeRequest>> writers[2];
-  for (int i = 0; i < 2; ++i) {
-    writers[i] = server_.shapes().UploadShape(&contexts[i], &shapes[i]);
-    v1::UploadShapeRequest request;
-    *request.mutable_header() = Header(off);
-    writers[i]->Write(request);
+TEST(UploadLimitTest, RefusesOneUploadMoreThanItsLimit) {
+  TestServerOptions options = UploadTestOptions();
+  options.rpc.limits.stream_idle_timeout = absl::Minutes(5);
+  TestServer server(options);
+  server.Start();
+  server.MakeCollection("c");
+  // Any of the three may arrive last; the two others stay open until then.
+  grpc::ClientContext contexts[3];
+  std::vector<std::future<grpc::Status>> uploads;
+  absl::Notification ended;
+  std::atomic<bool> is_first{true};
+  for (grpc::ClientContext& context : contexts) {
+    uploads.push_back(std::async(std::launch::async, [&] {
+      v1::Shape shape;
+      const auto writer = server.shapes().UploadShape(&context, &shape);
+      v1::UploadShapeRequest request;
+      *request.mutable_header() = Header(TorusOff());
+      writer->Write(request);
+      const grpc::Status status = writer->Finish();
+      if (is_first.exchange(false)) ended.Notify();
+      return status;
+    }));
   }
-  // The two may arrive later than a third: only a refusal counts.
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  ErrorOf error{grpc::Status::OK};
-  while (error.reason != "OVERLOADED" &&
-         std::chrono::steady_clock::now() < end) {
-    v1::Shape shape;
-    v1::UploadShapeHeader header = Header(off);
-    header.set_shape_id("another");
-    error = ErrorOf(Upload(header, "", &shape));
-  }
-  EXPECT_EQ(error.code, grpc::StatusCode::RESOURCE_EXHAUSTED) << error;
-  EXPECT_EQ(error.reason, "OVERLOADED") << error;
-  EXPECT_TRUE(error.has_retry);
-  EXPECT_TRUE(error.has_quota);
+  EXPECT_TRUE(ended.WaitForNotificationWithTimeout(absl::Minutes(1)));
   for (auto& context : contexts) context.TryCancel();
-  for (auto& writer : writers) writer->Finish();
+  int refused = 0;
+  for (auto& upload : uploads) {
+    const grpc::Status status = upload.get();
+    if (status.error_code() == grpc::StatusCode::CANCELLED) continue;
+    const ErrorOf error{status};
+    EXPECT_EQ(error.code, grpc::StatusCode::RESOURCE_EXHAUSTED) << error;
+    EXPECT_EQ(error.reason, "OVERLOADED") << error;
+    EXPECT_TRUE(error.has_retry);
+    EXPECT_TRUE(error.has_quota);
+    ++refused;
+  }
+  EXPECT_EQ(refused, 1);
 }
 
 }  // namespace

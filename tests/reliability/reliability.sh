@@ -14,6 +14,8 @@ if [[ ${2:-} == --full ]]; then
   export ARGMESH_MODEL_OPERATIONS=${ARGMESH_MODEL_OPERATIONS:-20000}
   export ARGMESH_HOSTILE_PEERS=${ARGMESH_HOSTILE_PEERS:-10000}
   export ARGMESH_SLOW_PEER_SECONDS=${ARGMESH_SLOW_PEER_SECONDS:-60}
+  export ARGMESH_OVERLOAD_SECONDS=${ARGMESH_OVERLOAD_SECONDS:-60}
+  export ARGMESH_SOAK_SECONDS=${ARGMESH_SOAK_SECONDS:-1800}
   export ARGMESH_DAMAGED_SNAPSHOTS=${ARGMESH_DAMAGED_SNAPSHOTS:-5000}
 fi
 
@@ -54,6 +56,8 @@ row "stop with calls in flight" lifecycle_test \
 row "same answers after restart" kill_test '*.AnswersTheSame*'
 row "kill -9 in an ingest" kill_test '*.LosesNothing*'
 row "hostile peers" hostile_peers_test '*'
+row "overload" overload_test '*'
+row "memory over time" soak_test '*'
 
 printf '\n'
 printf '%s\n' "${table[@]}"

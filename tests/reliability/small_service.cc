@@ -79,6 +79,18 @@ std::string ShapeCaller::Get(const std::string& id) {
   return Ask(*shapes_, &v1::ShapeService::Stub::GetShape, request);
 }
 
+std::string ShapeCaller::Delete(const std::string& id) {
+  v1::DeleteShapeRequest request;
+  request.set_name(ShapeNamed(id));
+  return Ask(*shapes_, &v1::ShapeService::Stub::DeleteShape, request);
+}
+
+std::string ShapeCaller::List() {
+  v1::ListShapesRequest request;
+  request.set_parent(kParts);
+  return Ask(*shapes_, &v1::ShapeService::Stub::ListShapes, request);
+}
+
 std::string ShapeCaller::Search(const std::string& id) {
   v1::SearchShapesRequest request;
   request.set_parent(kParts);

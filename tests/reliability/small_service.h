@@ -27,7 +27,9 @@ class ShapeCaller {
   // Each: empty when it was answered.
   std::string CreateCollection();
   std::string AddTorus(const std::string& id, double minor_radius);
+  std::string Delete(const std::string& id);
   std::string Get(const std::string& id);
+  std::string List();
   std::string Search(const std::string& id);
 
  private:

@@ -1,0 +1,121 @@
+// Shapes come and go, are read and searched for by several clients at once, as
+// long as one likes: the server's memory does not grow.
+//
+// ARGMESH_SOAK_SECONDS of it, 10 when not set. The slope counts from 300
+// seconds on: before that, what caches and the allocator keep still grows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/reliability/process_memory.h"
+#include "tests/reliability/small_service.h"
+#include "tests/reliability/witness.h"
+#include "tests/support/environment_number.h"
+
+namespace argmesh {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kShapes = 12;
+constexpr double kMebibyte = 1 << 20;
+constexpr double kWarmUpSeconds = 300;
+constexpr double kMostMebibytesPerHour = 1;
+// Within the warm-up only what no cache explains is an error.
+constexpr double kMostMebibytesWarmingUp = 128;
+
+struct MemorySample {
+  double seconds = 0;
+  double mebibytes = 0;
+};
+
+// By least squares.
+double MebibytesPerHour(const std::vector<MemorySample>& samples) {
+  double time = 0;
+  double memory = 0;
+  for (const MemorySample& sample : samples) {
+    time += sample.seconds / static_cast<double>(samples.size());
+    memory += sample.mebibytes / static_cast<double>(samples.size());
+  }
+  double both = 0;
+  double square = 0;
+  for (const MemorySample& sample : samples) {
+    both += (sample.seconds - time) * (sample.mebibytes - memory);
+    square += (sample.seconds - time) * (sample.seconds - time);
+  }
+  return square > 0 ? 3600 * both / square : 0;
+}
+
+// Each client has a connection of its own and repeats its calls.
+std::vector<std::unique_ptr<Witness>> MixedLoad(const std::string& address) {
+  std::vector<std::unique_ptr<Witness>> clients;
+  const auto add = [&](auto&& call) {
+    clients.push_back(std::make_unique<Witness>(
+        [caller = std::make_shared<ShapeCaller>(address), call,
+         round = 0]() mutable { return call(*caller, round++); }));
+  };
+  add([](ShapeCaller& caller, int round) {
+    const double minor_radius = 0.3 + 0.05 * (round % 13);
+    const std::string failure = caller.AddTorus("passing", minor_radius);
+    return failure.empty() ? caller.Delete("passing") : failure;
+  });
+  add([](ShapeCaller& caller, int round) {
+    return caller.Search("torus-" + std::to_string(round % kShapes));
+  });
+  add([](ShapeCaller& caller, int round) {
+    return caller.Get("torus-" + std::to_string(round % kShapes));
+  });
+  add([](ShapeCaller& caller, int) { return caller.List(); });
+  return clients;
+}
+
+TEST(SoakTest, TheServersMemoryDoesNotGrow) {
+  const auto time =
+      static_cast<double>(EnvironmentNumber("ARGMESH_SOAK_SECONDS", 10));
+  SmallService service;
+  ASSERT_EQ(service.Start(kShapes), "");
+  const double before =
+      static_cast<double>(ResidentBytes(service.pid())) / kMebibyte;
+
+  auto clients = MixedLoad(service.address());
+  std::vector<MemorySample> samples;
+  double most = 0;
+  const auto begin = Clock::now();
+  for (double now = 0; now < time;
+       now = duration<double>(Clock::now() - begin).count()) {
+    const double resident =
+        static_cast<double>(ResidentBytes(service.pid())) / kMebibyte;
+    ASSERT_GT(resident, 0) << service.installation().ServerLog();
+    most = std::max(most, resident);
+    if (now >= kWarmUpSeconds) samples.push_back({now, resident});
+    std::this_thread::sleep_for(seconds(1));
+  }
+
+  size_t calls = 0;
+  for (const auto& client : clients) {
+    const Testimony testimony = client->Take();
+    calls += testimony.milliseconds.size();
+    EXPECT_EQ(testimony.failed, 0) << testimony.failure;
+    EXPECT_FALSE(testimony.milliseconds.empty());
+  }
+  std::printf("measured: %.0f s, %zu calls, %.1f MiB before, %.1f at most\n",
+              time, calls, before, most);
+  EXPECT_LT(most - before, kMostMebibytesWarmingUp);
+  if (samples.empty()) return;
+  const double slope = MebibytesPerHour(samples);
+  std::printf("measured: %.2f MiB/h after the first %.0f s\n", slope,
+              kWarmUpSeconds);
+  EXPECT_LT(slope, kMostMebibytesPerHour);
+}
+
+}  // namespace
+}  // namespace argmesh
