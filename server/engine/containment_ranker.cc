@@ -13,7 +13,9 @@
 namespace argmesh {
 namespace {
 
-constexpr double kMaxScore = 3;
+constexpr double kMaxContainment = 3;
+constexpr double kGraphWeight = 0.15;
+constexpr double kMaxScore = kMaxContainment + kGraphWeight;
 constexpr int kExactLimit = 150;
 
 // Reads candidates' windows; safe to call from any thread.
@@ -53,13 +55,15 @@ RankContainmentOptions OptionsOf(const ContainmentQuery& query) {
   const int all = static_cast<int>(std::max<int64_t>(query.slots.count, 1));
   RankContainmentOptions options;
   options.slots = &query.slots.slots;
-  options.limit = std::min(query.limit, all);
   options.exact_limit = query.candidates > 0 ? query.candidates : kExactLimit;
-  options.exact_limit = std::clamp(options.exact_limit, options.limit, all);
+  options.exact_limit =
+      std::clamp(options.exact_limit, std::min(query.limit, all), all);
   if (query.exact) {
     options.exact_limit = all;
     options.verify_limit = all;
   }
+  // Which of them are returned is decided with their graphs.
+  options.limit = options.exact_limit;
   return options;
 }
 
@@ -67,7 +71,7 @@ RankContainmentOptions OptionsOf(const ContainmentQuery& query) {
 ContainmentMatch WholeMatch() {
   ContainmentMatch match;
   match.votes = match.coarse_cover = match.fine_cover = 1;
-  match.score = kMaxScore;
+  match.score = kMaxContainment;
   match.verified = true;
   match.query_coverage = match.target_coverage = 1;
   return match;
@@ -80,14 +84,17 @@ bool RanksBefore(const ContainingShape& a, const ContainingShape& b) {
 
 }  // namespace
 
-double ContainmentScore(const ContainmentMatch& match) {
-  return std::clamp(match.score / kMaxScore, 0.0, 1.0);
+double ContainmentScore(const ContainmentMatch& match, double graph_score) {
+  return std::clamp((match.score + kGraphWeight * graph_score) / kMaxScore, 0.0,
+                    1.0);
 }
 
-std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match) {
+std::vector<ScoreTerm> ContainmentTerms(const ContainmentMatch& match,
+                                        double graph_score) {
   const double surface = (match.score - match.votes) / 2;
   return {{"windows", match.votes, 1 / kMaxScore},
-          {"surface^8", surface, 2 / kMaxScore}};
+          {"surface^8", surface, 2 / kMaxScore},
+          {"graph", graph_score, kGraphWeight / kMaxScore}};
 }
 
 absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
@@ -104,17 +111,35 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
             pool_.ParallelFor(WorkClass::kSearch, count, body);
           },
           stop));
-  for (RankedContainment& ranked : ranking.matches) {
-    ContainingShape shape{gallery.entry(ranked.slot), 0,
+  std::vector<double> graph_scores(ranking.matches.size());
+  pool_.ParallelFor(WorkClass::kSearch,
+                    static_cast<int64_t>(graph_scores.size()), [&](int64_t i) {
+                      const auto at = static_cast<size_t>(i);
+                      if (!stop.Check().ok()) return;
+                      const GalleryEntryPtr entry =
+                          gallery.entry(ranking.matches[at].slot);
+                      graph_scores[at] = MatchPartial(query.graph, entry->graph,
+                                                      {.correspondence = false})
+                                             .score;
+                    });
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  for (size_t i = 0; i < ranking.matches.size(); ++i) {
+    RankedContainment& ranked = ranking.matches[i];
+    ContainingShape shape{gallery.entry(ranked.slot), 0, graph_scores[i],
                           std::move(ranked.match), ranked.tied};
-    if (shape.entry->record.sha256 == query.sha256) shape.match = WholeMatch();
-    shape.score = ContainmentScore(shape.match);
+    if (shape.entry->record.sha256 == query.sha256) {
+      shape.match = WholeMatch();
+      shape.graph_score = 1;
+    }
+    shape.score = ContainmentScore(shape.match, shape.graph_score);
     if (shape.score >= query.min_score &&
         shape.match.query_coverage >= query.min_query_coverage) {
       answer.shapes.push_back(std::move(shape));
     }
   }
   std::sort(answer.shapes.begin(), answer.shapes.end(), RanksBefore);
+  answer.shapes.resize(
+      std::min(answer.shapes.size(), static_cast<size_t>(query.limit)));
   answer.generic = ranking.generic;
   answer.considered = query.slots.count;
   answer.matched = ranking.loaded;

@@ -52,12 +52,19 @@ absl::Status CheckMetadata(const std::map<std::string, std::string>& metadata) {
                         absl::StrFormat("has %d entries, more than %d",
                                         metadata.size(), kMaxMetadataEntries));
   }
+  size_t bytes = 0;
   for (const auto& [key, value] : metadata) {
+    bytes += key.size() + value.size();
     if (key.empty()) return FieldInvalid("metadata", "has an empty key");
     ARGMESH_RETURN_IF_ERROR(
         CheckText("metadata key", key, kMaxMetadataKeyBytes));
     ARGMESH_RETURN_IF_ERROR(
         CheckText("metadata value", value, kMaxMetadataValueBytes));
+  }
+  if (bytes > kMaxMetadataBytes) {
+    return FieldInvalid("metadata",
+                        absl::StrFormat("has %d bytes, more than %d", bytes,
+                                        kMaxMetadataBytes));
   }
   return absl::OkStatus();
 }

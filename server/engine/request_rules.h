@@ -20,6 +20,7 @@ inline constexpr size_t kMaxSourceUriBytes = 2048;
 inline constexpr size_t kMaxMetadataEntries = 64;
 inline constexpr size_t kMaxMetadataKeyBytes = 64;
 inline constexpr size_t kMaxMetadataValueBytes = 1024;
+inline constexpr size_t kMaxMetadataBytes = 16 << 10;  // keys and values
 inline constexpr int kMaxSearchLimit = 1000;
 inline constexpr int kMaxCandidates = 1'000'000;
 

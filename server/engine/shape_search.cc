@@ -159,10 +159,12 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
                                         const SearchedShapes& searched,
                                         const StopToken& stop,
                                         SearchAnswer& answer) const {
+  const MatchableGraph graph(resolved.graph.graph);
   ARGMESH_ASSIGN_OR_RETURN(
       ContainmentAnswer found,
       containment_.Rank(*searched.gallery,
                         {.windows = *resolved.windows,
+                         .graph = graph,
                          .sha256 = resolved.sha256,
                          .limit = query.limit,
                          .candidates = query.candidates,
@@ -176,7 +178,6 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
   stages.push_back({"match", found.match_time});
   stages.push_back({"verification", found.verification_time});
   StageClock clock(stages);
-  const MatchableGraph graph(resolved.graph.graph);
   answer.matches.resize(found.shapes.size());
   pool_.ParallelFor(
       WorkClass::kSearch, static_cast<int64_t>(found.shapes.size()),
@@ -189,7 +190,7 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
         match.match = MatchPartial(graph, shape.entry->graph);
         match.match.query_coverage = shape.match.query_coverage;
         match.match.target_coverage = shape.match.target_coverage;
-        match.terms = ContainmentTerms(shape.match);
+        match.terms = ContainmentTerms(shape.match, shape.graph_score);
         match.tied = shape.tied;
         match.containment = std::move(shape.match);
         if (found.generic) match.containment->verified = false;

@@ -53,11 +53,11 @@ seconds SlowPeerTime() {
 
 uint32_t StreamId(int n) { return static_cast<uint32_t>(2 * n + 1); }
 
-// A request of 600 bytes whose answer has 1.2 MB.
+// A request of 2.5 KB whose answer has 1.2 MB.
 std::string LargeAnswerRequest() {
   v1::BatchGetShapesRequest request;
   request.set_parent(kParts);
-  for (int i = 0; i < 20; ++i) request.add_names(ShapeNamed("torus-0"));
+  for (int i = 0; i < 80; ++i) request.add_names(ShapeNamed("torus-0"));
   return GrpcMessage(request.SerializeAsString());
 }
 

@@ -14,7 +14,7 @@ constexpr double kMajorRadius = 2;
 constexpr int kMajorSegments = 20;
 constexpr int kMinorSegments = 12;
 // So that the answer to a request of a few bytes may be large.
-constexpr int kNotes = 60;
+constexpr int kNotes = 15;
 constexpr size_t kNoteBytes = 1000;
 
 // Makes a call of `stub`: empty when it was answered, else why not.

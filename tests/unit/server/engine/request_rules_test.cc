@@ -27,6 +27,9 @@ TEST(CheckNewShape, TakesAnythingWithinTheLimits) {
   shape.display_name = std::string(256, 'x');
   shape.source_uri = std::string(2048, 'x');
   shape.metadata[std::string(64, 'k')] = std::string(1024, 'v');
+  for (int i = 0; i < 14; ++i) {
+    shape.metadata[std::to_string(i)] = std::string(1024, 'v');
+  }
   EXPECT_THAT(CheckNewShape(shape), IsOk());
 }
 
@@ -51,6 +54,11 @@ TEST(CheckNewShape, NamesTheFieldThatIsTooLong) {
   EXPECT_EQ(MetadataOf(CheckNewShape(shape))["field"], "source_uri");
   shape = GoodShape();
   for (int i = 0; i < 65; ++i) shape.metadata[std::to_string(i)] = "";
+  EXPECT_EQ(MetadataOf(CheckNewShape(shape))["field"], "metadata");
+  shape = GoodShape();
+  for (int i = 0; i < 16; ++i) {
+    shape.metadata[std::to_string(i)] = std::string(1024, 'v');
+  }
   EXPECT_EQ(MetadataOf(CheckNewShape(shape))["field"], "metadata");
   shape = GoodShape();
   shape.metadata[""] = "x";
