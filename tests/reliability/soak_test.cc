@@ -31,7 +31,11 @@ constexpr double kMebibyte = 1 << 20;
 constexpr double kWarmUpSeconds = 300;
 constexpr double kMostMebibytesPerHour = 1;
 // Within the warm-up only what no cache explains is an error.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kMostMebibytesWarmingUp = 512;  // it keeps what is freed
+#else
 constexpr double kMostMebibytesWarmingUp = 128;
+#endif
 
 struct MemorySample {
   double seconds = 0;
