@@ -16,6 +16,7 @@
 #ifndef ARGMESH_CORE_MATCHING_MATCH_H_
 #define ARGMESH_CORE_MATCHING_MATCH_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -34,8 +35,15 @@ enum class AttributeSet {
 
 struct MatchOptions {
   AttributeSet attributes = AttributeSet::kFull;  // global only
+  // Names of the query's levels that count; empty: all.
+  std::vector<std::string> levels;
   // Fill MatchResult::pairs and, of a global match, the coverages.
   bool correspondence = true;
+
+  bool Counts(const std::string& level) const {
+    return levels.empty() ||
+           std::find(levels.begin(), levels.end(), level) != levels.end();
+  }
 };
 
 // A graph made ready for matching: attributes on frozen scales. Immutable;

@@ -92,6 +92,9 @@ MatchResult MatchGlobal(const MatchableGraph& query,
                            : RowKind::kFull;
   MatchResult result;
   std::vector<Meeting> meetings = PairLevels(q, t);
+  std::erase_if(meetings, [&](const Meeting& m) {
+    return !options.Counts(q.names[m.query_level]);
+  });
   for (Meeting& m : meetings) {
     m.score =
         ScoreLevels(q.Level(m.query_level), t.Level(m.target_level), kind);

@@ -20,11 +20,15 @@ struct LevelMatch {
 
 // A single node resembles some node of every shape: such a level counts only
 // when the query has no other.
-bool HasManyNodes(const MatchableGraph::Impl& query) {
-  for (const PackedLevel& level : query.levels) {
-    if (level.num_nodes() > 1) return true;
+bool HasManyNodes(const MatchableGraph::Impl& query,
+                  const MatchOptions& options) {
+  for (size_t level = 0; level <= query.levels.size(); ++level) {
+    if (query.Level(level).num_nodes() > 1 &&
+        options.Counts(query.names[level])) {
+      return true;
+    }
   }
-  return query.uniform.num_nodes() > 1;
+  return false;
 }
 
 void TryLevels(const PackedLevel& query, const MatchableGraph::Impl& target,
@@ -37,10 +41,12 @@ void TryLevels(const PackedLevel& query, const MatchableGraph::Impl& target,
 }
 
 LevelMatch MatchQueryLevel(const MatchableGraph::Impl& query,
-                           const MatchableGraph::Impl& target, size_t level) {
+                           const MatchableGraph::Impl& target, size_t level,
+                           const MatchOptions& options) {
   LevelMatch best;
   const PackedLevel& nodes = query.Level(level);
-  if (nodes.num_nodes() == 1 && HasManyNodes(query)) return best;
+  if (!options.Counts(query.names[level])) return best;
+  if (nodes.num_nodes() == 1 && HasManyNodes(query, options)) return best;
   if (level == query.levels.size()) {
     TryLevels(nodes, target, target.levels.size(), best);
     return best;
@@ -61,7 +67,7 @@ MatchResult MatchPartial(const MatchableGraph& query,
   MatchResult result;
   std::vector<LevelMatch> matches;
   for (size_t level = 0; level <= q.levels.size(); ++level) {
-    matches.push_back(MatchQueryLevel(q, t, level));
+    matches.push_back(MatchQueryLevel(q, t, level, options));
     if (!matches.back().tried) continue;
     result.level_scores.push_back(
         {q.names[level], static_cast<float>(matches.back().match.score)});

@@ -111,17 +111,17 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
             pool_.ParallelFor(WorkClass::kSearch, count, body);
           },
           stop));
+  MatchOptions match = query.match;
+  match.correspondence = false;
   std::vector<double> graph_scores(ranking.matches.size());
-  pool_.ParallelFor(WorkClass::kSearch,
-                    static_cast<int64_t>(graph_scores.size()), [&](int64_t i) {
-                      const auto at = static_cast<size_t>(i);
-                      if (!stop.Check().ok()) return;
-                      const GalleryEntryPtr entry =
-                          gallery.entry(ranking.matches[at].slot);
-                      graph_scores[at] = MatchPartial(query.graph, entry->graph,
-                                                      {.correspondence = false})
-                                             .score;
-                    });
+  pool_.ParallelFor(
+      WorkClass::kSearch, static_cast<int64_t>(graph_scores.size()),
+      [&](int64_t i) {
+        const auto at = static_cast<size_t>(i);
+        if (!stop.Check().ok()) return;
+        const GalleryEntryPtr entry = gallery.entry(ranking.matches[at].slot);
+        graph_scores[at] = MatchPartial(query.graph, entry->graph, match).score;
+      });
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   for (size_t i = 0; i < ranking.matches.size(); ++i) {
     RankedContainment& ranked = ranking.matches[i];

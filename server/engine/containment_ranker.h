@@ -28,6 +28,7 @@ namespace argmesh {
 struct ContainmentQuery {
   const QueryWindows& windows;
   const MatchableGraph& graph;  // of the same surface
+  MatchOptions match;           // of graphs, but `correspondence`
   // Of the query's bytes: a shape of the same bytes holds it for certain.
   std::optional<Sha256Digest> sha256;
   int limit = 10;

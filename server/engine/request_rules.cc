@@ -1,6 +1,10 @@
 #include "server/engine/request_rules.h"
 
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
@@ -65,6 +69,19 @@ absl::Status CheckMetadata(const std::map<std::string, std::string>& metadata) {
     return FieldInvalid("metadata",
                         absl::StrFormat("has %d bytes, more than %d", bytes,
                                         kMaxMetadataBytes));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckLevels(const std::vector<std::string>& levels,
+                         const ShapeGraph& query) {
+  const std::vector<std::string> names = LevelNames(query);
+  for (const std::string& level : levels) {
+    if (std::find(names.begin(), names.end(), level) == names.end()) {
+      return FieldInvalid("parameters.levels",
+                          absl::StrCat(level, " is not among the query's: ",
+                                       absl::StrJoin(names, ", ")));
+    }
   }
   return absl::OkStatus();
 }

@@ -7,8 +7,10 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "core/graph/shape_graph.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/search_requests.h"
 #include "server/engine/shape_requests.h"
@@ -35,6 +37,9 @@ absl::Status CheckNewCollection(const NewCollection& spec);
 absl::Status CheckNewShape(const NewShape& shape);
 absl::Status CheckPatch(const ShapePatch& patch);
 absl::Status CheckSearchQuery(const SearchQuery& query);
+// Each is the name of a level of `query`.
+absl::Status CheckLevels(const std::vector<std::string>& levels,
+                         const ShapeGraph& query);
 
 }  // namespace argmesh
 

@@ -42,6 +42,7 @@ struct SearchQuery {
   // Finest components of a ShapeRef: the query is that part of it.
   std::vector<int32_t> region_nodes;
   AttributeSet attributes = AttributeSet::kFull;  // kGlobal only
+  std::vector<std::string> levels;  // as MatchOptions; kFieldInvalid: no such
   // A ShapeGraph as the query is always ranked by graphs.
   RankingMethod ranking = RankingMethod::kFused;
   bool rerank = false;            // kFused and kGlobal only
@@ -109,6 +110,7 @@ struct CompareQuery {
   QueryShape b;
   MatchMode mode = MatchMode::kGlobal;
   AttributeSet attributes = AttributeSet::kFull;  // kGlobal only
+  std::vector<std::string> levels;  // as MatchOptions; kFieldInvalid: no such
   RankingMethod ranking = RankingMethod::kFused;
   std::string collection;  // whose settings turn meshes into graphs
   bool graphs = false;     // fill ComparedShapes::a and b

@@ -28,8 +28,7 @@ void KeepBest(std::vector<RankedShape>& shapes, size_t limit) {
 }
 
 MatchOptions ScanOptions(const RankQuery& query) {
-  MatchOptions options;
-  options.attributes = query.attributes;
+  MatchOptions options = query.match;
   // The coverage of a global match is that of the correspondence at its best
   // level, so a bound on it needs both.
   options.correspondence =

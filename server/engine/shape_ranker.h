@@ -24,7 +24,7 @@ namespace argmesh {
 struct RankQuery {
   const MatchableGraph& graph;
   MatchMode mode = MatchMode::kGlobal;
-  AttributeSet attributes = AttributeSet::kFull;
+  MatchOptions match;  // but `correspondence`
   // Null: by the graphs alone.
   const PackedSignature* signature = nullptr;
   int candidates = 0;  // graphs to be matched; 0: as many as pay

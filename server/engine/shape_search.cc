@@ -54,12 +54,18 @@ Handedness HandednessOf(const PackedSignature& a, const PackedSignature& b,
                                 : CompareHandedness(a, b);
 }
 
+// Of a search or a comparison.
+template <typename Query>
+MatchOptions OptionsOf(const Query& query) {
+  return {.attributes = query.attributes, .levels = query.levels};
+}
+
 RankQuery RankQueryOf(const SearchQuery& query, const SlotSelection& slots,
                       const MatchableGraph& graph,
                       const PackedSignature* signature) {
   return {.graph = graph,
           .mode = query.mode,
-          .attributes = query.attributes,
+          .match = OptionsOf(query),
           .signature = signature,
           .candidates = query.candidates,
           .exact = query.exact,
@@ -141,7 +147,7 @@ absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
         match.score = ranked.score;
         match.candidate_rank = ranked.candidate_rank;
         match.match = MatchGraphs(query.mode, graph, ranked.entry->graph,
-                                  {.attributes = query.attributes});
+                                  OptionsOf(query));
         if (packed == nullptr) return;
         match.terms = FusedTerms(match.match.score, ranked.signature);
         match.handedness =
@@ -165,6 +171,7 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
       containment_.Rank(*searched.gallery,
                         {.windows = *resolved.windows,
                          .graph = graph,
+                         .match = OptionsOf(query),
                          .sha256 = resolved.sha256,
                          .limit = query.limit,
                          .candidates = query.candidates,
@@ -187,7 +194,7 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
         SearchMatch& match = answer.matches[static_cast<size_t>(i)];
         match.shape = shape.entry->record;
         match.score = shape.score;
-        match.match = MatchPartial(graph, shape.entry->graph);
+        match.match = MatchPartial(graph, shape.entry->graph, OptionsOf(query));
         match.match.query_coverage = shape.match.query_coverage;
         match.match.target_coverage = shape.match.target_coverage;
         match.terms = ContainmentTerms(shape.match, shape.graph_score);
@@ -215,6 +222,7 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   const GallerySnapshot& gallery = *searched.gallery;
   ARGMESH_ASSIGN_OR_RETURN(ResolvedQuery resolved,
                            Resolve(query, gallery.settings, stop));
+  ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, resolved.graph.graph));
   clock.Lap("query");
   answer.stats.generation = gallery.generation;
   answer.stats.shapes_unusable =
@@ -244,12 +252,12 @@ absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
   ARGMESH_ASSIGN_OR_RETURN(
       ResolvedQuery b,
       resolver_.Resolve(query.b, collection.settings, needs, stop));
+  ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, a.graph.graph));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   ComparedShapes compared;
   SearchMatch& match = compared.match;
   match.match = MatchGraphs(query.mode, MatchableGraph(a.graph.graph),
-                            MatchableGraph(b.graph.graph),
-                            {.attributes = query.attributes});
+                            MatchableGraph(b.graph.graph), OptionsOf(query));
   match.score = match.match.score;
   if (a.signature && b.signature) {
     const PackedSignature packed_a(*a.signature);

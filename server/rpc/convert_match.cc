@@ -140,11 +140,9 @@ absl::StatusOr<MatchMode> FromProto(std::string_view field,
 absl::StatusOr<MatchSettings> FromProto(std::string_view field,
                                         const v1::MatchParameters& parameters,
                                         MatchMode mode, bool graph_query) {
-  if (!parameters.levels().empty()) {
-    return FieldInvalid(std::string(field) + ".levels",
-                        "not served by this version; leave it empty");
-  }
   MatchSettings settings;
+  settings.levels.assign(parameters.levels().begin(),
+                         parameters.levels().end());
   ARGMESH_ASSIGN_OR_RETURN(settings.attributes,
                            AttributesOf(field, parameters, mode));
   ARGMESH_ASSIGN_OR_RETURN(settings.ranking,

@@ -2,7 +2,9 @@
 #ifndef ARGMESH_SERVER_RPC_CONVERT_MATCH_H_
 #define ARGMESH_SERVER_RPC_CONVERT_MATCH_H_
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "argmesh/v1/match.pb.h"
@@ -17,6 +19,7 @@ absl::StatusOr<MatchMode> FromProto(std::string_view field,
 
 struct MatchSettings {
   AttributeSet attributes = AttributeSet::kFull;
+  std::vector<std::string> levels;
   RankingMethod ranking = RankingMethod::kFused;
   bool rerank = false;
 };
@@ -25,8 +28,7 @@ struct MatchSettings {
 //
 // FIELD_INVALID for a number that is no set or method, for another set than
 // FULL in a partial search, for what needs more than the graph of a graph
-// query, for `rerank` of anything but a fused global search, and for levels,
-// which are not served yet.
+// query, and for `rerank` of anything but a fused global search.
 absl::StatusOr<MatchSettings> FromProto(std::string_view field,
                                         const v1::MatchParameters& parameters,
                                         MatchMode mode, bool graph_query);

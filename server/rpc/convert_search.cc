@@ -148,6 +148,7 @@ absl::StatusOr<SearchQuery> SettingsOf(const v1::SearchShapesRequest& request) {
                            FromProto("parameters", request.parameters(),
                                      query.mode, request.has_graph()));
   query.attributes = settings.attributes;
+  query.levels = settings.levels;
   query.ranking = settings.ranking;
   query.rerank = settings.rerank;
   query.candidates = request.candidates();
@@ -208,6 +209,7 @@ absl::StatusOr<CompareQuery> FromProto(
     return FieldInvalid("parameters.rerank", "two shapes have no order");
   }
   query.attributes = settings.attributes;
+  query.levels = settings.levels;
   query.ranking = settings.ranking;
   ARGMESH_ASSIGN_OR_RETURN(query.a, QueryOf("query", request.query()));
   ARGMESH_ASSIGN_OR_RETURN(query.b, QueryOf("target", request.target()));

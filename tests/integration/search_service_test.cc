@@ -337,9 +337,9 @@ TEST_F(SearchServiceTest, RefusesRequestsItCannotAnswer) {
       .mutable_parameters()
       ->set_ranking(static_cast<v1::RankingMethod>(9));
   add("candidates", kInvalid, "FIELD_INVALID").set_candidates(-1);
-  add("parameters", kInvalid, "FIELD_INVALID")
+  add("level that there is not", kInvalid, "FIELD_INVALID")
       .mutable_parameters()
-      ->add_levels("count-16");
+      ->add_levels("count-17");
   add("empty mesh", kInvalid, "FIELD_REQUIRED").mutable_mesh();
   add("bad mesh", kInvalid, "MESH_FORMAT_UNKNOWN")
       .mutable_mesh()

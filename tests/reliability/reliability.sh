@@ -19,6 +19,8 @@ if [[ ${2:-} == --full ]]; then
   export ARGMESH_DAMAGED_SNAPSHOTS=${ARGMESH_DAMAGED_SNAPSHOTS:-5000}
 fi
 
+export ARGMESH_OVERLOAD_SECONDS=${ARGMESH_OVERLOAD_SECONDS:-10}
+
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 table=()

@@ -72,6 +72,21 @@ TEST(MatchGlobal, IsSymmetricToTheBit) {
   }
 }
 
+TEST(MatchGlobal, CountsOnlyTheLevelsAskedFor) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const MatchableGraph a(MakeRandomGraph(seed));
+    const MatchableGraph b(MakeRandomGraph(seed + 1000));
+    for (const LevelScore& level : MatchGlobal(a, b).level_scores) {
+      const MatchResult alone = MatchGlobal(a, b, {.levels = {level.name}});
+      ASSERT_EQ(alone.level_scores.size(), 1u) << seed;
+      EXPECT_EQ(alone.level_scores[0].name, level.name) << seed;
+      EXPECT_FLOAT_EQ(static_cast<float>(alone.score), level.score) << seed;
+      EXPECT_EQ(alone.best_level, level.name) << seed;
+    }
+    EXPECT_EQ(MatchGlobal(a, b, {.levels = {"none"}}).score, 0) << seed;
+  }
+}
+
 TEST(MatchGlobal, FallsWithTheAmountOfChange) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const ShapeGraph graph = MakeRandomGraph(seed);

@@ -55,6 +55,19 @@ TEST(MatchPartial, FindsThePartInTheShapeItWasCutFromAtAnyScale) {
   }
 }
 
+TEST(MatchPartial, TakesTheBestOfTheLevelsAskedFor) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const MatchableGraph a(MakeRandomGraph(seed));
+    const MatchableGraph b(MakeRandomGraph(seed + 1000));
+    for (const LevelScore& level : MatchPartial(a, b).level_scores) {
+      const MatchResult alone = MatchPartial(a, b, {.levels = {level.name}});
+      ASSERT_EQ(alone.level_scores.size(), 1u) << seed;
+      EXPECT_EQ(alone.best_level, level.name) << seed;
+      EXPECT_EQ(alone.level_scores[0].score, level.score) << seed;
+    }
+  }
+}
+
 TEST(MatchPartial, DoesNotScoreAWholeInsideItsPart) {
   const ShapeGraph whole =
       MakeRandomGraph(1, {.level_nodes = {10}, .uniform_nodes = 0, .modes = 0});

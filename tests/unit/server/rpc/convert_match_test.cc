@@ -1,5 +1,6 @@
 #include "server/rpc/convert_match.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/graph/shape_graph.h"
@@ -68,9 +69,14 @@ TEST(ConvertMatch, TakesTheTupleAloneInGlobalSearchesOnly) {
   EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kPartial)));
   parameters.set_attributes(static_cast<v1::AttributeSet>(9));
   EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kGlobal)));
-  parameters.clear_attributes();
+}
+
+TEST(ConvertMatch, TakesTheLevelsThatCount) {
+  v1::MatchParameters parameters;
+  EXPECT_TRUE(Settings(parameters, MatchMode::kGlobal)->levels.empty());
   parameters.add_levels("count-16");
-  EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kGlobal)));
+  EXPECT_THAT(Settings(parameters, MatchMode::kGlobal)->levels,
+              testing::ElementsAre("count-16"));
 }
 
 TEST(ConvertMatch, RanksAGraphByGraphsAlone) {
