@@ -119,7 +119,7 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
       [&](int64_t i) {
         const auto at = static_cast<size_t>(i);
         if (!stop.Check().ok()) return;
-        const GalleryEntryPtr entry = gallery.entry(ranking.matches[at].slot);
+        const GalleryEntryPtr& entry = gallery.entry(ranking.matches[at].slot);
         graph_scores[at] = MatchPartial(query.graph, entry->graph, match).score;
       });
   ARGMESH_RETURN_IF_ERROR(stop.Check());
