@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "core/base/stopwatch.h"
 #include "core/containment/containment_ranking.h"
 #include "core/containment/window_codec.h"
 
@@ -111,27 +112,26 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
             pool_.ParallelFor(WorkClass::kSearch, count, body);
           },
           stop));
-  MatchOptions match = query.match;
-  match.correspondence = false;
-  std::vector<double> graph_scores(ranking.matches.size());
+  Stopwatch watch;
+  std::vector<MatchResult> graphs(ranking.matches.size());
   pool_.ParallelFor(
-      WorkClass::kSearch, static_cast<int64_t>(graph_scores.size()),
-      [&](int64_t i) {
+      WorkClass::kSearch, static_cast<int64_t>(graphs.size()), [&](int64_t i) {
         const auto at = static_cast<size_t>(i);
         if (!stop.Check().ok()) return;
         const GalleryEntryPtr& entry = gallery.entry(ranking.matches[at].slot);
-        graph_scores[at] = MatchPartial(query.graph, entry->graph, match).score;
+        graphs[at] = MatchPartial(query.graph, entry->graph, query.match);
       });
   ARGMESH_RETURN_IF_ERROR(stop.Check());
+  answer.graph_time = watch.Lap();
   for (size_t i = 0; i < ranking.matches.size(); ++i) {
     RankedContainment& ranked = ranking.matches[i];
-    ContainingShape shape{gallery.entry(ranked.slot), 0, graph_scores[i],
+    ContainingShape shape{gallery.entry(ranked.slot), 0, std::move(graphs[i]),
                           std::move(ranked.match), ranked.tied};
     if (shape.entry->record.sha256 == query.sha256) {
       shape.match = WholeMatch();
-      shape.graph_score = 1;
+      shape.graph.score = 1;
     }
-    shape.score = ContainmentScore(shape.match, shape.graph_score);
+    shape.score = ContainmentScore(shape.match, shape.graph.score);
     if (shape.score >= query.min_score &&
         shape.match.query_coverage >= query.min_query_coverage) {
       answer.shapes.push_back(std::move(shape));

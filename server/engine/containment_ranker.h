@@ -28,7 +28,7 @@ namespace argmesh {
 struct ContainmentQuery {
   const QueryWindows& windows;
   const MatchableGraph& graph;  // of the same surface
-  MatchOptions match;           // of graphs, but `correspondence`
+  MatchOptions match;           // of graphs
   // Of the query's bytes: a shape of the same bytes holds it for certain.
   std::optional<Sha256Digest> sha256;
   int limit = 10;
@@ -41,8 +41,8 @@ struct ContainmentQuery {
 
 struct ContainingShape {
   GalleryEntryPtr entry;
-  double score = 0;        // ContainmentScore
-  double graph_score = 0;  // MatchPartial
+  double score = 0;   // ContainmentScore
+  MatchResult graph;  // MatchPartial
   ContainmentMatch match;
   bool tied = false;
 };
@@ -56,6 +56,7 @@ struct ContainmentAnswer {
   absl::Duration candidate_time;
   absl::Duration match_time;
   absl::Duration verification_time;
+  absl::Duration graph_time;
 };
 
 class ContainmentRanker {

@@ -184,25 +184,19 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
   stages.push_back({"candidates", found.candidate_time});
   stages.push_back({"match", found.match_time});
   stages.push_back({"verification", found.verification_time});
-  StageClock clock(stages);
-  answer.matches.resize(found.shapes.size());
-  pool_.ParallelFor(
-      WorkClass::kSearch, static_cast<int64_t>(found.shapes.size()),
-      [&](int64_t i) {
-        if (!stop.Check().ok()) return;
-        ContainingShape& shape = found.shapes[static_cast<size_t>(i)];
-        SearchMatch& match = answer.matches[static_cast<size_t>(i)];
-        match.shape = shape.entry->record;
-        match.score = shape.score;
-        match.match = MatchPartial(graph, shape.entry->graph, OptionsOf(query));
-        match.match.query_coverage = shape.match.query_coverage;
-        match.match.target_coverage = shape.match.target_coverage;
-        match.terms = ContainmentTerms(shape.match, shape.graph_score);
-        match.tied = shape.tied;
-        match.containment = std::move(shape.match);
-        if (found.generic) match.containment->verified = false;
-      });
-  clock.Lap("correspondence");
+  stages.push_back({"correspondence", found.graph_time});
+  for (ContainingShape& shape : found.shapes) {
+    SearchMatch& match = answer.matches.emplace_back();
+    match.shape = shape.entry->record;
+    match.score = shape.score;
+    match.terms = ContainmentTerms(shape.match, shape.graph.score);
+    match.match = std::move(shape.graph);
+    match.match.query_coverage = shape.match.query_coverage;
+    match.match.target_coverage = shape.match.target_coverage;
+    match.tied = shape.tied;
+    match.containment = std::move(shape.match);
+    if (found.generic) match.containment->verified = false;
+  }
   answer.query_generic = found.generic;
   answer.stats.shapes_considered = found.considered;
   answer.stats.shapes_matched = found.matched;

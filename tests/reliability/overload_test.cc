@@ -44,11 +44,8 @@ void Print(const char* what, const LoadOutcome& load) {
   std::printf(
       "measured: %s: %.0f answered a second, p50 %.0f ms, p99 %.0f ms, %d "
       "refused, %d failed\n",
-      what, load.answered_per_second(),
-      load.milliseconds.empty()
-          ? 0.0
-          : load.milliseconds[load.milliseconds.size() / 2],
-      load.p99(), load.refused, load.failed);
+      what, load.answered_per_second(), load.Quantile(0.5), load.p99(),
+      load.refused, load.failed);
 }
 
 TEST(OverloadTest, AnswersAsManyAsBeforeAndNoSlower) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/synchronization/mutex.h"
+#include "tests/reliability/small_service.h"
 
 namespace argmesh {
 namespace {
@@ -26,12 +27,6 @@ double LoadOutcome::answered_per_second() const {
   return seconds > 0 ? static_cast<double>(milliseconds.size()) / seconds : 0;
 }
 
-double LoadOutcome::p99() const {
-  if (milliseconds.empty()) return 0;
-  const auto last = static_cast<double>(milliseconds.size() - 1);
-  return milliseconds[static_cast<size_t>(0.99 * last)];
-}
-
 // What the calls of one load came to. Thread-safe.
 class SearchLoad::Tally {
  public:
@@ -47,8 +42,7 @@ class SearchLoad::Tally {
     } else if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) {
       ++outcome_.refused;
     } else if (++outcome_.failed == 1) {
-      outcome_.failure = "code " + std::to_string(status.error_code()) + ": " +
-                         status.error_message();
+      outcome_.failure = FailureOf(status);
     }
     --open_;
   }
@@ -73,11 +67,8 @@ class SearchLoad::Tally {
 SearchLoad::SearchLoad(const std::string& address,
                        v1::SearchShapesRequest request)
     : request_(std::move(request)) {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   for (int i = 0; i < kConnections; ++i) {
-    stubs_.push_back(v1::SearchService::NewStub(grpc::CreateCustomChannel(
-        address, grpc::InsecureChannelCredentials(), arguments)));
+    stubs_.push_back(v1::SearchService::NewStub(OwnChannel(address)));
   }
 }
 

@@ -9,18 +9,16 @@
 #include <vector>
 
 #include "argmesh/v1/search_service.grpc.pb.h"
+#include "tests/reliability/witness.h"
 
 namespace argmesh {
 
-struct LoadOutcome {
-  std::vector<double> milliseconds;  // of the calls that were answered, sorted
-  int refused = 0;                   // with RESOURCE_EXHAUSTED
-  int failed = 0;                    // otherwise
-  std::string failure;               // the first one's message
-  double seconds = 0;                // until the last call ended
+// What was refused did not fail.
+struct LoadOutcome : Testimony {
+  int refused = 0;     // with RESOURCE_EXHAUSTED
+  double seconds = 0;  // until the last call ended
 
   double answered_per_second() const;
-  double p99() const;
 };
 
 class SearchLoad {

@@ -26,10 +26,7 @@ std::string Ask(Stub& stub,
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kDeadline);
   Response response;
-  const grpc::Status status = (stub.*call)(&context, request, &response);
-  if (status.ok()) return "";
-  return "code " + std::to_string(status.error_code()) + ": " +
-         status.error_message();
+  return FailureOf((stub.*call)(&context, request, &response));
 }
 
 }  // namespace
@@ -38,12 +35,21 @@ std::string ShapeNamed(const std::string& id) {
   return std::string(kParts) + "/shapes/" + id;
 }
 
-ShapeCaller::ShapeCaller(const std::string& address) {
+std::shared_ptr<grpc::Channel> OwnChannel(const std::string& address) {
   grpc::ChannelArguments arguments;
-  // Not the connection of another caller of this process.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  const auto channel = grpc::CreateCustomChannel(
-      address, grpc::InsecureChannelCredentials(), arguments);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(),
+                                   arguments);
+}
+
+std::string FailureOf(const grpc::Status& status) {
+  if (status.ok()) return "";
+  return "code " + std::to_string(status.error_code()) + ": " +
+         status.error_message();
+}
+
+ShapeCaller::ShapeCaller(const std::string& address) {
+  const auto channel = OwnChannel(address);
   collections_ = v1::CollectionService::NewStub(channel);
   shapes_ = v1::ShapeService::NewStub(channel);
   search_ = v1::SearchService::NewStub(channel);

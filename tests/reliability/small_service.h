@@ -19,6 +19,11 @@ namespace argmesh {
 
 inline constexpr char kParts[] = "collections/parts";
 
+// Not the connection of another caller of this process.
+std::shared_ptr<grpc::Channel> OwnChannel(const std::string& address);
+// Code and message; empty when `status` is OK.
+std::string FailureOf(const grpc::Status& status);
+
 // A connection of its own.
 class ShapeCaller {
  public:
