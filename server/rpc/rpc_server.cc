@@ -62,7 +62,9 @@ void SetChannelArguments(grpc::ServerBuilder& builder) {
   // near it gRPC lets peers send less and cuts streams.
   grpc::ResourceQuota quota("argmesh");
   builder.SetResourceQuota(quota.Resize(kMaxTransportBytes));
-  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 128);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxStreams);
+  // One peer's bytes are not worked on for long before another's turn.
+  builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, 64 << 10);
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 16 << 10);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 60 * kMillisPerSecond);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS,
@@ -136,6 +138,8 @@ class RpcServer::Impl {
     environment_.access.SetKeys(options.keys);
     environment_.store_admin = options.store_admin;
     environment_.import_source = options.import_source;
+    environment_.connections.SetCut(
+        [this](const std::string& peer) { acceptor_.Cut(peer); });
   }
 
   ~Impl() { Shutdown(absl::Now()); }
@@ -227,17 +231,29 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
               {{"version", environment_.version}});
   sheet.Gauge("argmesh_calls_in_flight", "Calls that have not ended.",
               environment_.calls.in_flight());
+  sheet.Gauge("argmesh_operations_running", "Operations that have not ended.",
+              environment_.operations.running());
   sheet.Gauge("argmesh_draining", "1 once the server is going down.",
               environment_.calls.draining() ? 1 : 0);
   sheet.Counter("argmesh_connections_refused_total",
                 "Connections that were closed for want of descriptors.",
                 static_cast<double>(acceptor_.refused()));
+  sheet.Counter("argmesh_connections_cut_total",
+                "Connections that were cut, or not taken after one of the same "
+                "address was, because of calls that were reset at once.",
+                static_cast<double>(acceptor_.cut()));
   sheet.Gauge("argmesh_unread_answer_bytes",
               "Of answers that are made and not taken.",
-              static_cast<double>(environment_.unread.bytes()));
+              static_cast<double>(environment_.answers.bytes()));
   sheet.Counter("argmesh_unread_answers_cut_total",
                 "Answers that were cut because of the memory they took.",
-                static_cast<double>(environment_.unread.cut()));
+                static_cast<double>(environment_.answers.cut()));
+  sheet.Gauge("argmesh_slow_request_bytes",
+              "Of requests that do not come whole, each as a full message.",
+              static_cast<double>(environment_.requests.bytes()));
+  sheet.Counter("argmesh_slow_requests_cut_total",
+                "Such requests that were cut because there were too many.",
+                static_cast<double>(environment_.requests.cut()));
   for (const Admission* admission :
        {&environment_.searches, &environment_.uploads, &environment_.ingests}) {
     const GaugeSheet::Labels labels = {{"class", admission->what()}};

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -40,6 +41,9 @@ constexpr double kSlowerMilliseconds = 2000;
 // A peer that neither sends nor takes anything is cut after it.
 constexpr char kIdleTimeout[] = "3";
 
+// Another one than that of the others, who are not to be taken for it.
+constexpr char kOtherHost[] = "127.0.0.2";
+
 constexpr char kGetShape[] = "/argmesh.v1.ShapeService/GetShape";
 constexpr char kBatchGet[] = "/argmesh.v1.ShapeService/BatchGetShapes";
 constexpr char kUpload[] = "/argmesh.v1.ShapeService/UploadShape";
@@ -59,6 +63,22 @@ std::string LargeAnswerRequest() {
   request.set_parent(kParts);
   for (int i = 0; i < 80; ++i) request.add_names(ShapeNamed("torus-0"));
   return GrpcMessage(request.SerializeAsString());
+}
+
+// A connection's calls, each reset right after its message.
+std::string CallsWithResets(int calls) {
+  v1::GetShapeRequest request;
+  request.set_name(ShapeNamed("torus-0"));
+  const std::string message = GrpcMessage(request.SerializeAsString());
+  const std::string cancel(std::string("\0\0\0\x08", 4));
+  std::string bytes = Http2Hello(0);
+  for (int n = 0; n < calls; ++n) {
+    const uint32_t stream = StreamId(n);
+    bytes += Http2Call(stream, kGetShape);
+    bytes += FrameBytes(Http2Frame::kData, kEndStream, stream, message);
+    bytes += FrameBytes(Http2Frame::kReset, 0, stream, cancel);
+  }
+  return bytes;
 }
 
 // gzip, as grpc-encoding names it, of `size` zeroes.
@@ -277,25 +297,27 @@ TEST_F(HostilePeersTest, IdleConnections) {
 }
 
 TEST_F(HostilePeersTest, CallsThatAreResetAtOnce) {
-  constexpr int kCalls = 10'000;
-  v1::GetShapeRequest request;
-  request.set_name(ShapeNamed("torus-0"));
-  const std::string message = GrpcMessage(request.SerializeAsString());
-  const std::string cancel(std::string("\0\0\0\x08", 4));
-  Endure("2 x 10,000 calls that are reset at once", 256 * kMebibyte, [&] {
-    for (int i = 0; i < 2; ++i) {
-      Http2Peer peer(service_->address());
-      peer.Send(Http2Hello(0));
-      for (int n = 0; n < kCalls; ++n) {
-        if (!peer.Send(
-                Http2Call(StreamId(n), kGetShape) +
-                FrameBytes(Http2Frame::kData, kEndStream, StreamId(n),
-                           message) +
-                FrameBytes(Http2Frame::kReset, 0, StreamId(n), cancel))) {
-          break;
+  constexpr int kCalls = 10'000;  // of a connection, then it is a new one
+  constexpr size_t kPeers = 2;
+  const std::string storm = CallsWithResets(kCalls);
+  const std::string what = std::to_string(kPeers) + " peers that for " +
+                           std::to_string(SlowPeerTime().count()) +
+                           " s reset every call at once";
+  Endure(what.c_str(), 256 * kMebibyte, [&] {
+    const auto end = std::chrono::steady_clock::now() + SlowPeerTime();
+    std::vector<std::thread> peers;
+    std::atomic<int> connections = 0;
+    for (size_t i = 0; i < kPeers; ++i) {
+      peers.emplace_back([&] {
+        while (std::chrono::steady_clock::now() < end) {
+          const Http2Peer peer(service_->address(), kOtherHost);
+          peer.Send(storm);
+          ++connections;
         }
-      }
+      });
     }
+    for (std::thread& peer : peers) peer.join();
+    std::printf("%d connections\n", connections.load());
   });
 }
 
@@ -365,19 +387,25 @@ TEST_F(HostilePeersTest, RequestsThatNeverEnd) {
   Endure("4 peers, 512 requests of 4 MB that lack their last bytes",
          1024 * kMebibyte, [&] {
            std::vector<Http2Peer> peers;
-           int sent = 0;
+           std::vector<int> opened(kPeers, 0);
            for (int i = 0; i < kPeers; ++i) {
              Http2Peer& peer = peers.emplace_back(service_->address());
              ASSERT_TRUE(peer.Send(Http2Hello(0)));
-             for (int n = 0; n < kStreams; ++n) {
+             for (int& n = opened[static_cast<size_t>(i)]; n < kStreams; ++n) {
                if (!peer.Send(Http2Call(StreamId(n), kGetShape)) ||
                    !peer.SendData(StreamId(n), half, false)) {
                  break;
                }
-               ++sent;
              }
            }
-           EXPECT_GT(sent, 0);
+           for (size_t i = 0; i < peers.size(); ++i) {
+             EXPECT_GT(opened[i], 0);
+             peers[i].Read(seconds(20),
+                           [&] { return peers[i].ended() >= opened[i]; });
+             EXPECT_TRUE(peers[i].closed() || peers[i].ended() >= opened[i])
+                 << peers[i].ended() << " of " << opened[i]
+                 << ": every call is cut once its message has not come";
+           }
          });
 }
 
