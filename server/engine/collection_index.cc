@@ -64,6 +64,15 @@ void CollectionIndex::RemoveEntry(const std::string& id) {
   slots_.erase(it);
 }
 
+void CollectionIndex::Replace(CollectionIndex&& other) {
+  settings_ = other.settings_;
+  blocks_ = std::move(other.blocks_);
+  slots_ = std::move(other.slots_);
+  free_slots_ = std::move(other.free_slots_);
+  windows_ = std::move(other.windows_);
+  unusable_ = std::move(other.unusable_);
+}
+
 std::vector<std::string> CollectionIndex::Outdated() const {
   std::vector<std::string> ids;
   for (const auto& [id, why] : unusable_) {
