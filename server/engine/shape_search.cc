@@ -261,17 +261,19 @@ ShapeSearch::ResolveBoth(const CompareQuery& query,
   while (true) {
     absl::StatusOr<ResolvedQuery> a =
         resolver_.Resolve(query.a, collection.settings, needs, stop);
-    absl::StatusOr<ResolvedQuery> b = a.status();
-    if (a.ok()) b = resolver_.Resolve(query.b, collection.settings, needs, stop);
-    if (b.ok()) return std::make_pair(*std::move(a), *std::move(b));
-    if (ReasonOf(b.status()) != ErrorReason::kGraphVersionMismatch) {
-      return b.status();
+    absl::Status status = a.status();
+    if (status.ok()) {
+      absl::StatusOr<ResolvedQuery> b =
+          resolver_.Resolve(query.b, collection.settings, needs, stop);
+      if (b.ok()) return std::make_pair(*std::move(a), *std::move(b));
+      status = b.status();
     }
+    if (ReasonOf(status) != ErrorReason::kGraphVersionMismatch) return status;
     // Once more when the collection was switched to other settings meanwhile.
     const CollectionSettings before = collection.settings;
     ARGMESH_ASSIGN_OR_RETURN(collection,
                              catalog_.GetCollection(query.collection));
-    if (MakeSameGraphs(collection.settings, before)) return b.status();
+    if (MakeSameGraphs(collection.settings, before)) return status;
   }
 }
 

@@ -204,7 +204,22 @@ void MemoryCatalog::FailNextPut(absl::Status error) {
   next_put_ = std::move(error);
 }
 
+void MemoryCatalog::BeforeNextPut(std::function<void()> act) {
+  const std::lock_guard lock(mutex_);
+  before_put_ = std::move(act);
+}
+
+void MemoryCatalog::RunOnce(std::function<void()>& act) const {
+  std::function<void()> taken;
+  {
+    const std::lock_guard lock(mutex_);
+    taken = std::exchange(act, nullptr);
+  }
+  if (taken) taken();
+}
+
 absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
+  RunOnce(before_put_);
   const std::lock_guard lock(mutex_);
   if (closed_) return CatalogClosedError();
   ARGMESH_RETURN_IF_ERROR(std::exchange(next_put_, absl::OkStatus()));

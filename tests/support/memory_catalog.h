@@ -6,6 +6,7 @@
 #ifndef ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
 #define ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -75,6 +76,9 @@ class MemoryCatalog : public Catalog {
 
   // The next PutShape answers `error` and changes nothing.
   void FailNextPut(absl::Status error);
+  // Runs `act` once, before the next call of that name does anything.
+  void BeforeNextPut(std::function<void()> act);
+  void BeforeNextReadGraph(std::function<void()> act);
   // Makes the stored graph unreadable.
   void DamageGraph(std::string_view collection, std::string_view id);
 
@@ -126,6 +130,8 @@ class MemoryCatalog : public Catalog {
                     ShapeChange::Kind kind);
   // The shape, which is there, is so no more.
   ShapeDeleted Erase(Collection& collection, const std::string& id);
+  // Calls what is there, without the lock, and leaves nothing there.
+  void RunOnce(std::function<void()>& act) const;
   bool IsReferenced(const Sha256Digest& sha256) const;
   std::vector<Sha256Digest> Unreferenced(const ShapeRecord& gone) const;
   static ScannedGraph Scan(const Collection& collection, const Shape& shape);
@@ -135,6 +141,8 @@ class MemoryCatalog : public Catalog {
   std::map<std::string, Collection, std::less<>> collections_;
   std::map<std::pair<std::string, std::string>, Answer> answers_;
   absl::Status next_put_;
+  std::function<void()> before_put_;
+  mutable std::function<void()> before_read_graph_;
 };
 
 }  // namespace argmesh

@@ -40,8 +40,14 @@ void MemoryCatalog::DamageGraph(std::string_view collection,
   collections_.find(collection)->second.shapes.find(id)->second.damaged = true;
 }
 
+void MemoryCatalog::BeforeNextReadGraph(std::function<void()> act) {
+  const std::lock_guard lock(mutex_);
+  before_read_graph_ = std::move(act);
+}
+
 absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
     std::string_view collection, std::string_view id, bool with_labels) const {
+  RunOnce(before_read_graph_);
   const std::lock_guard lock(mutex_);
   ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
   const auto it = found->shapes.find(id);

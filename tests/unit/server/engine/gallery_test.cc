@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "server/engine/error_reason.h"
 #include "tests/support/catalog_samples.h"
 #include "tests/support/memory_catalog.h"
@@ -20,7 +21,7 @@ class GalleryTest : public ::testing::Test {
   CollectionRecord Insert(const std::string& id, int shapes) {
     const CollectionRecord record = SampleCollection(id);
     EXPECT_TRUE(catalog_.InsertCollection(record, {}).ok());
-    for (int i = 0; i < shapes; ++i) Put(record, "s" + std::to_string(i));
+    for (int i = 0; i < shapes; ++i) Put(record, absl::StrCat("s", i));
     return record;
   }
   int64_t Put(const CollectionRecord& collection, const std::string& id) {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -202,8 +203,10 @@ class Operations {
     put.if_exists = static_cast<IfExists>(random_.Below(3));
     put.etag = EtagOfShape(model, collection, put.record.id);
     put.request = Stamp("PutShape", absl::StrCat(put.record.id, mesh));
-    if (random_.Below(3) == 0) put.settings = RandomStage().settings;
-    if (random_.Below(3) == 0) put.staged = SampleDescription(RandomStage(), mesh);
+    if (random_.Below(8) == 0) put.settings = RandomStage().settings;
+    if (random_.Below(2) == 0) {
+      put.staged = SampleDescription(StageOf(collection), mesh);
+    }
     return [=](Catalog& catalog) {
       return "put " + collection + "/" + put.record.id + ": " +
              Text(catalog.PutShape(put), Show);
@@ -250,11 +253,19 @@ class Operations {
     return stage;
   }
 
+  // Mostly the one that was begun last.
+  SettingsStage StageOf(const std::string& collection) {
+    const auto begun = begun_.find(collection);
+    return begun == begun_.end() || random_.Below(6) == 0 ? RandomStage()
+                                                          : begun->second;
+  }
+
   Operation BeginStage(Catalog& model) {
     const std::string id = CollectionId();
     const auto record = model.GetCollection(id);
     const std::string uid = record.ok() ? record->uid : "nobody";
     const SettingsStage stage = RandomStage();
+    begun_[id] = stage;
     return [=](Catalog& catalog) {
       return "begin stage " + id + ": " +
              Text(catalog.BeginStage(id, uid, stage));
@@ -266,15 +277,15 @@ class Operations {
     const auto record = model.GetCollection(CollectionId());
     const CollectionRecord collection =
         record.ok() ? *record : SampleCollection("c0");
-    const SettingsStage stage = RandomStage();
+    const SettingsStage stage = StageOf(collection.id);
     std::vector<ShapeStaging> stagings;
     for (uint64_t i = 0; i < kShapes; ++i) {
-      if (random_.Below(8) == 0) continue;
+      if (random_.Below(16) == 0) continue;
       ShapeStaging& staging = stagings.emplace_back(
           SampleStaging(collection, absl::StrCat("s", i),
                         random_.Below(kMeshes), stage));
       const auto shape = model.GetShape(collection.id, staging.id);
-      if (shape.ok() && random_.Below(8) != 0) staging.sha256 = shape->sha256;
+      if (shape.ok() && random_.Below(16) != 0) staging.sha256 = shape->sha256;
     }
     return [=](Catalog& catalog) {
       std::string text = "stage shapes of " + collection.id + ": ";
@@ -290,7 +301,7 @@ class Operations {
     change.collection = CollectionId();
     const auto record = model.GetCollection(change.collection);
     change.collection_uid = record.ok() ? record->uid : "nobody";
-    change.stage = RandomStage();
+    change.stage = StageOf(change.collection);
     change.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
     int& switches = switches_;
@@ -337,6 +348,7 @@ class Operations {
   }
 
   Random random_;
+  std::map<std::string, SettingsStage> begun_;  // by collection
   int switches_ = 0;
 };
 

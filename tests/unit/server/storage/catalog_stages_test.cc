@@ -165,9 +165,9 @@ TEST_P(CatalogStagesTest, PutsAsideWithAShapeOnlyAtItsStage) {
   put.if_exists = IfExists::kReplace;
   ASSERT_THAT(catalog_->PutShape(put), IsOk());
   EXPECT_THAT(Unstaged(), ElementsAre("blue", "red"));
-  put.record.id = "other";
-  put.staged = SampleDescription(SampleStage(700), 3);
-  ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  ShapePut other = SamplePut(cups_, "other", 3);
+  other.staged = SampleDescription(SampleStage(700), 3);
+  ASSERT_THAT(catalog_->PutShape(other), IsOk());
   EXPECT_THAT(Unstaged(), ElementsAre("blue", "other", "red"));
 }
 
