@@ -73,15 +73,15 @@ absl::StatusOr<int> Reindex(const Session& session,
   }
   const v1::CollectionSettings& settings = response.collection().settings();
   if (session.options.json) {
-    session.Print({{"collection", collection},
-                   {"reindexed", response.reindexed()},
-                   {"failed", response.failed()},
-                   {"failures", run.TakeFailures()},
-                   {"decomposition",
-                    DecompositionName(settings.decomposition())},
-                   {"vertex_budget", settings.vertex_budget()},
-                   {"uniform_cells", settings.uniform_cells()},
-                   {"generation", response.collection().generation()}});
+    session.Print(
+        {{"collection", collection},
+         {"reindexed", response.reindexed()},
+         {"failed", response.failed()},
+         {"failures", run.TakeFailures()},
+         {"decomposition", DecompositionName(settings.decomposition())},
+         {"vertex_budget", settings.vertex_budget()},
+         {"uniform_cells", settings.uniform_cells()},
+         {"generation", response.collection().generation()}});
   } else {
     session.out << absl::StrFormat(
         "%s: %d shapes described anew, %d failed\n"

@@ -66,6 +66,7 @@ void CollectionIndex::RemoveEntry(const std::string& id) {
 
 void CollectionIndex::Replace(CollectionIndex&& other) {
   settings_ = other.settings_;
+  ++switches_;
   blocks_ = std::move(other.blocks_);
   slots_ = std::move(other.slots_);
   free_slots_ = std::move(other.free_slots_);
@@ -87,6 +88,7 @@ void CollectionIndex::Publish(int64_t generation) {
   snapshot->collection = collection_;
   snapshot->collection_uid = collection_uid_;
   snapshot->settings = settings_;
+  snapshot->switches = switches_;
   snapshot->generation = generation;
   snapshot->size = static_cast<int64_t>(slots_.size());
   snapshot->damaged_shapes = std::count_if(

@@ -60,6 +60,7 @@ class CollectionIndex {
   const std::string collection_;
   const std::string collection_uid_;
   CollectionSettings settings_;
+  int64_t switches_ = 0;  // calls of Replace
   std::vector<Block> blocks_;
   std::unordered_map<std::string, size_t> slots_;  // of the ids
   std::vector<size_t> free_slots_;

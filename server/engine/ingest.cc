@@ -165,9 +165,9 @@ absl::StatusOr<AddedShape> Ingest::Commit(const ShapePut& put,
   return AddedShape{std::move(written.record), !written.written};
 }
 
-// With the settings that the collection has when it is written.
+// With the settings that the collection has when it is written: what a switch
+// overtook is described again.
 absl::StatusOr<AddedShape> Ingest::CommitAsIs(const NewShape& shape,
-                                              CollectionRecord collection,
                                               const Source& source,
                                               Described described,
                                               const StopToken& stop) {
@@ -177,10 +177,8 @@ absl::StatusOr<AddedShape> Ingest::CommitAsIs(const NewShape& shape,
     if (ReasonOf(added.status()) != ErrorReason::kGraphVersionMismatch) {
       return added;
     }
-    const CollectionSettings before = collection.settings;
-    ARGMESH_ASSIGN_OR_RETURN(collection,
+    ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
                              catalog_.GetCollection(shape.collection));
-    if (MakeSameGraphs(collection.settings, before)) return added;
     RequestStamp request = std::move(described.put.request);
     ARGMESH_ASSIGN_OR_RETURN(described,
                              Describe(shape, collection, source, stop));
@@ -188,17 +186,16 @@ absl::StatusOr<AddedShape> Ingest::CommitAsIs(const NewShape& shape,
   }
 }
 
-absl::StatusOr<AddedShape> Ingest::Store(const NewShape& shape,
-                                         const CollectionRecord& collection,
-                                         Source& source, Described described,
+absl::StatusOr<AddedShape> Ingest::Store(const NewShape& shape, Source& source,
+                                         Described described,
                                          const StopToken& stop) {
   if (!described.put.record.mesh_stored) {
-    return CommitAsIs(shape, collection, source, std::move(described), stop);
+    return CommitAsIs(shape, source, std::move(described), stop);
   }
   absl::StatusOr<AddedShape> added;
   {
     ARGMESH_ASSIGN_OR_RETURN(const MeshPin pin, PublishMesh(source));
-    added = CommitAsIs(shape, collection, source, std::move(described), stop);
+    added = CommitAsIs(shape, source, std::move(described), stop);
   }
   if (!added.ok() || added->already_stored) {
     RemoveMeshes({source.sha256});  // unless another shape has it
@@ -324,7 +321,7 @@ absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
   ARGMESH_ASSIGN_OR_RETURN(Described described,
                            Describe(shape, collection, source, stop));
   described.put.request = std::move(request);
-  return Store(shape, collection, source, std::move(described), stop);
+  return Store(shape, source, std::move(described), stop);
 }
 
 }  // namespace argmesh

@@ -69,12 +69,9 @@ class Ingest {
   absl::StatusOr<StagedDescription> DescribeWith(
       const CollectionSettings& settings, const std::string& bytes,
       MeshFormat format, const StopToken& stop) const;
-  absl::StatusOr<AddedShape> Store(const NewShape& shape,
-                                   const CollectionRecord& collection,
-                                   Source& source, Described described,
-                                   const StopToken& stop);
+  absl::StatusOr<AddedShape> Store(const NewShape& shape, Source& source,
+                                   Described described, const StopToken& stop);
   absl::StatusOr<AddedShape> CommitAsIs(const NewShape& shape,
-                                        CollectionRecord collection,
                                         const Source& source,
                                         Described described,
                                         const StopToken& stop);

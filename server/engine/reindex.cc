@@ -47,8 +47,8 @@ class Reindexer::Rounds {
     report_.done += run.done;
     report_.were_done += run.were_done;
     report_.failed += run.failed;
-    const size_t listed = std::min(run.failures.size(),
-                                   kMaxListedFailures - report_.failures.size());
+    const size_t listed = std::min(
+        run.failures.size(), kMaxListedFailures - report_.failures.size());
     std::move(run.failures.begin(),
               run.failures.begin() + static_cast<std::ptrdiff_t>(listed),
               std::back_inserter(report_.failures));
@@ -93,17 +93,16 @@ absl::StatusOr<ReindexReport> Reindexer::Run(
     const RunControl& control) {
   ReindexReport report;
   ARGMESH_ASSIGN_OR_RETURN(report.collection, Check(collection, settings));
-  ARGMESH_ASSIGN_OR_RETURN(
-      const std::unique_ptr<RunningReindexes::Run> running,
-      running_.Begin(report.collection));
+  ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<RunningReindexes::Run> running,
+                           running_.Begin(report.collection));
   Rounds rounds(pool_, control);
   ARGMESH_ASSIGN_OR_RETURN(
       report.collection,
       DescribeOutdated(std::move(report.collection), rounds));
   if (settings && rounds.report().failed == 0) {
-    ARGMESH_ASSIGN_OR_RETURN(report.collection,
-                             SwitchTo(*settings, std::move(report.collection),
-                                      *running, rounds));
+    ARGMESH_ASSIGN_OR_RETURN(
+        report.collection,
+        SwitchTo(*settings, std::move(report.collection), *running, rounds));
   }
   report.run = rounds.report();
   return report;
@@ -121,10 +120,9 @@ absl::StatusOr<CollectionRecord> Reindexer::DescribeOutdated(
   }
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<std::string> outdated,
                            gallery_.Outdated(collection.id));
-  ARGMESH_RETURN_IF_ERROR(
-      rounds.Run(outdated, [&](const std::string& id) {
-        return DescribeAnew(collection, id, rounds.stop());
-      }));
+  ARGMESH_RETURN_IF_ERROR(rounds.Run(outdated, [&](const std::string& id) {
+    return DescribeAnew(collection, id, rounds.stop());
+  }));
   return catalog_.GetCollection(collection.id);
 }
 
@@ -191,10 +189,9 @@ absl::StatusOr<CollectionRecord> Reindexer::SwitchTo(
   while (!switched) {
     ARGMESH_ASSIGN_OR_RETURN(const std::vector<std::string> unstaged,
                              ListUnstaged(collection));
-    ARGMESH_RETURN_IF_ERROR(
-        rounds.Run(unstaged, [&](const std::string& id) {
-          return PutAside(collection, settings, id, rounds.stop());
-        }));
+    ARGMESH_RETURN_IF_ERROR(rounds.Run(unstaged, [&](const std::string& id) {
+      return PutAside(collection, settings, id, rounds.stop());
+    }));
     if (rounds.report().failed > 0) return collection;
     if (!staged) {
       ARGMESH_ASSIGN_OR_RETURN(staged,

@@ -122,15 +122,15 @@ absl::StatusOr<ResolvedQuery> ShapeSearch::ResolveFor(
     const SearchQuery& query, const StopToken& stop,
     SearchedShapes& searched) const {
   while (true) {
-    const CollectionSettings& settings = searched.gallery->settings;
-    absl::StatusOr<ResolvedQuery> resolved = Resolve(query, settings, stop);
+    absl::StatusOr<ResolvedQuery> resolved =
+        Resolve(query, searched.gallery->settings, stop);
     if (ReasonOf(resolved.status()) != ErrorReason::kGraphVersionMismatch) {
       return resolved;
     }
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const GallerySnapshotPtr latest,
                              gallery_.LatestSnapshot(query.collection));
-    if (MakeSameGraphs(latest->settings, settings)) return resolved;
+    if (latest->switches == searched.gallery->switches) return resolved;
     ARGMESH_ASSIGN_OR_RETURN(searched, Select(query, stop));
   }
 }
@@ -270,10 +270,10 @@ ShapeSearch::ResolveBoth(const CompareQuery& query,
     }
     if (ReasonOf(status) != ErrorReason::kGraphVersionMismatch) return status;
     // Once more when the collection was switched to other settings meanwhile.
-    const CollectionSettings before = collection.settings;
+    const int64_t before = collection.revision;
     ARGMESH_ASSIGN_OR_RETURN(collection,
                              catalog_.GetCollection(query.collection));
-    if (MakeSameGraphs(collection.settings, before)) return status;
+    if (collection.revision == before) return status;
   }
 }
 

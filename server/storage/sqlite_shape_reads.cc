@@ -16,7 +16,7 @@ namespace argmesh {
 namespace {
 
 // After the shape's columns: its graph and what else the index needs.
-#define ARGMESH_GRAPH_COLUMNS_WITH(settings)  \
+#define ARGMESH_GRAPH_COLUMNS_WITH(settings) \
   ", g.algorithm_version, g.arg, g.crc32c, " \
   "z.bytes, z.crc32c, w.words, w.words_crc32c, " settings " "
 #define ARGMESH_GRAPH_COLUMNS ARGMESH_GRAPH_COLUMNS_WITH("c.settings")

@@ -76,22 +76,20 @@ absl::StatusOr<int64_t> WriteShapeRow(SqliteConnection& connection,
 // In place of the graph that a replaced shape had.
 absl::Status WriteGraph(SqliteConnection& connection, int64_t shape,
                         const ShapePut& put, const PutBytes& bytes) {
-  ARGMESH_RETURN_IF_ERROR(
-      connection
-          .Run("DELETE FROM graph WHERE id = "
-               "(SELECT graph_id FROM shape WHERE id = ?)",
-               shape)
-          .status());
+  ARGMESH_RETURN_IF_ERROR(connection
+                              .Run("DELETE FROM graph WHERE id = "
+                                   "(SELECT graph_id FROM shape WHERE id = ?)",
+                                   shape)
+                              .status());
   ARGMESH_ASSIGN_OR_RETURN(
       const int64_t graph,
-      InsertGraph(
-          connection, shape,
-          {.version = put.graph_version,
-           .graph = put.graph,
-           .labels = bytes.labels,
-           .label_bytes = static_cast<int64_t>(put.labels.size())}));
-  return connection.Run("UPDATE shape SET graph_id = ? WHERE id = ?", graph,
-                        shape)
+      InsertGraph(connection, shape,
+                  {.version = put.graph_version,
+                   .graph = put.graph,
+                   .labels = bytes.labels,
+                   .label_bytes = static_cast<int64_t>(put.labels.size())}));
+  return connection
+      .Run("UPDATE shape SET graph_id = ? WHERE id = ?", graph, shape)
       .status();
 }
 
@@ -170,9 +168,9 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
     first.written = false;
     return first;
   }
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
-                           FindCollectionRow(connection, put.record.collection,
-                                             put.collection_uid));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const CollectionRow collection,
+      FindCollectionRow(connection, put.record.collection, put.collection_uid));
   ARGMESH_ASSIGN_OR_RETURN(
       const std::optional<ShapeRow> stored,
       FindShapeRow(connection, collection.number, put.record.id));

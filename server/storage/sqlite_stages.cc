@@ -19,13 +19,14 @@ constexpr int64_t kRowBytes = 1024;  // about what a row without a graph takes
 constexpr size_t kRemovedAtOnce = 64;
 
 // Shapes s of collection c, and null t where nothing is put aside for the mesh.
-#define ARGMESH_STAGED_JOIN                          \
-  "FROM collection c "                               \
-  "JOIN shape s ON s.collection_id = c.id "          \
-  "LEFT JOIN staged_shape t ON t.shape_id = s.id "   \
+#define ARGMESH_STAGED_JOIN                        \
+  "FROM collection c "                             \
+  "JOIN shape s ON s.collection_id = c.id "        \
+  "LEFT JOIN staged_shape t ON t.shape_id = s.id " \
   "AND t.sha256 = s.sha256 "
 
-absl::Status Begin(SqliteConnection& connection, const CollectionRow& collection,
+absl::Status Begin(SqliteConnection& connection,
+                   const CollectionRow& collection,
                    const SettingsStage& stage) {
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<SettingsStage> begun,
                            ReadStage(connection, collection.number));
@@ -36,9 +37,10 @@ absl::Status Begin(SqliteConnection& connection, const CollectionRow& collection
   }
   const std::string settings = SerializeCollectionSettings(stage.settings);
   return connection
-      .Run("INSERT INTO stage (collection_id, settings, graph_version) "
-           "VALUES (?, ?, ?)",
-           collection.number, SqliteBlob(settings), stage.graph_version)
+      .Run(
+          "INSERT INTO stage (collection_id, settings, graph_version) "
+          "VALUES (?, ?, ?)",
+          collection.number, SqliteBlob(settings), stage.graph_version)
       .status();
 }
 
@@ -75,10 +77,11 @@ absl::Status Stage(SqliteConnection& connection, const ShapeStaging& staging,
 absl::Status MoveShapes(SqliteConnection& connection, int64_t collection,
                         int64_t generation, absl::Time update_time) {
   return connection
-      .Run("UPDATE shape SET graph_id = t.graph_id, details = t.details, "
-           "generation = ?, update_us = ? FROM staged_shape t "
-           "WHERE t.shape_id = shape.id AND shape.collection_id = ?",
-           generation, absl::ToUnixMicros(update_time), collection)
+      .Run(
+          "UPDATE shape SET graph_id = t.graph_id, details = t.details, "
+          "generation = ?, update_us = ? FROM staged_shape t "
+          "WHERE t.shape_id = shape.id AND shape.collection_id = ?",
+          generation, absl::ToUnixMicros(update_time), collection)
       .status();
 }
 

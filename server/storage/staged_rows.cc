@@ -46,16 +46,17 @@ absl::Status WriteStaged(SqliteConnection& connection, int64_t shape,
           .status());
   ARGMESH_ASSIGN_OR_RETURN(
       const int64_t graph,
-      InsertGraph(connection, shape,
-                  {.version = description.stage.graph_version,
-                   .graph = description.graph,
-                   .labels = bytes.labels,
-                   .label_bytes =
-                       static_cast<int64_t>(description.labels.size())}));
+      InsertGraph(
+          connection, shape,
+          {.version = description.stage.graph_version,
+           .graph = description.graph,
+           .labels = bytes.labels,
+           .label_bytes = static_cast<int64_t>(description.labels.size())}));
   return connection
-      .Run("INSERT INTO staged_shape (shape_id, sha256, graph_id, details) "
-           "VALUES (?, ?, ?, ?)",
-           shape, SqliteBlob(mesh), graph, SqliteBlob(bytes.details))
+      .Run(
+          "INSERT INTO staged_shape (shape_id, sha256, graph_id, details) "
+          "VALUES (?, ?, ?, ?)",
+          shape, SqliteBlob(mesh), graph, SqliteBlob(bytes.details))
       .status();
 }
 

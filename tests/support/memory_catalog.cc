@@ -256,8 +256,8 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
     staged = Staged{put.record.sha256, *put.staged};
   }
   collection->shapes[put.record.id] = {
-      written.record,  put.graph_version, put.graph,        put.labels,
-      put.descriptors, false,             std::move(staged)};
+      written.record, put.graph_version, put.graph, put.labels, put.descriptors,
+      false,          std::move(staged)};
   if (replaced) written.unreferenced = Unreferenced(*replaced);
   Remember(put.request, SerializeShapeWritten(written));
   return written;

@@ -54,9 +54,9 @@ absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
   if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
   const ScannedGraph scanned = Scan(*found, it->second);
   ARGMESH_RETURN_IF_ERROR(scanned.status);
-  return StoredGraph{scanned.record,        scanned.settings,
-                     scanned.graph_version, scanned.graph,
-                     scanned.signature,     with_labels ? it->second.labels : ""};
+  return StoredGraph{
+      scanned.record, scanned.settings,  scanned.graph_version,
+      scanned.graph,  scanned.signature, with_labels ? it->second.labels : ""};
 }
 
 absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(

@@ -49,8 +49,7 @@ absl::Status MemoryCatalog::StageShape(const ShapeStaging& staging) {
     return ShapeNotFoundError(staging.collection, staging.id);
   }
   Shape& shape = it->second;
-  ARGMESH_RETURN_IF_ERROR(
-      CheckStagedMesh(staging.sha256, shape.record.sha256));
+  ARGMESH_RETURN_IF_ERROR(CheckStagedMesh(staging.sha256, shape.record.sha256));
   shape.staged = Staged{staging.sha256, staging.description};
   return absl::OkStatus();
 }

@@ -120,20 +120,20 @@ TEST_F(EngineReindexTest, AnswersAsBeforeAndTakesWritesWhileItRuns) {
   const std::map<std::string, double> old_scores = ScoresOf("cups");
   ASSERT_OK_AND_ASSIGN(
       const ReindexReport report,
-      Reindex(OtherSettings(), AfterTheFirst([&] {
-                EXPECT_EQ(ScoresOf("cups"), old_scores);
-                EXPECT_EQ(engine_->GetCollection("cups").value().settings,
-                          QuickSettings());
-                Add("cups", "new", 6);
-                Add("cups", "t2", 7);  // another mesh
-                ShapePatch patch;
-                patch.collection = "cups";
-                patch.id = "t3";
-                patch.display_name = "renamed";
-                EXPECT_THAT(engine_->UpdateShape(patch), IsOk());
-                EXPECT_THAT(engine_->DeleteShape({{"cups", "t4"}, "", {}}),
-                            IsOk());
-              })));
+      Reindex(
+          OtherSettings(), AfterTheFirst([&] {
+            EXPECT_EQ(ScoresOf("cups"), old_scores);
+            EXPECT_EQ(engine_->GetCollection("cups").value().settings,
+                      QuickSettings());
+            Add("cups", "new", 6);
+            Add("cups", "t2", 7);  // another mesh
+            ShapePatch patch;
+            patch.collection = "cups";
+            patch.id = "t3";
+            patch.display_name = "renamed";
+            EXPECT_THAT(engine_->UpdateShape(patch), IsOk());
+            EXPECT_THAT(engine_->DeleteShape({{"cups", "t4"}, "", {}}), IsOk());
+          })));
   EXPECT_EQ(report.run.failed, 0);
   EXPECT_EQ(report.collection.settings, OtherSettings());
   MakeFresh(OtherSettings());
@@ -149,12 +149,12 @@ TEST_F(EngineReindexTest, DescribesAShapeThatComesMeanwhileWithBothSettings) {
   AddTori("cups", {2, 3});
   std::vector<std::string> unstaged = {"not asked"};
   const std::string uid = engine_->GetCollection("cups").value().uid;
-  ASSERT_OK_AND_ASSIGN(
-      const ReindexReport report,
-      Reindex(OtherSettings(), AfterTheFirst([&] {
-                Add("cups", "a", 4);
-                unstaged = catalog_->ListUnstaged(uid, "", 1).value();
-              })));
+  ASSERT_OK_AND_ASSIGN(const ReindexReport report,
+                       Reindex(OtherSettings(), AfterTheFirst([&] {
+                                 Add("cups", "a", 4);
+                                 unstaged =
+                                     catalog_->ListUnstaged(uid, "", 1).value();
+                               })));
   // What came is put aside with it: the run does not have to come back to it.
   EXPECT_TRUE(unstaged.empty() || unstaged[0] != "a");
   EXPECT_EQ(report.run.done, 2);
@@ -202,8 +202,7 @@ TEST_F(EngineReindexTest, StaysAsItWasWhenAShapeFails) {
   AddTori("cups", {2, 3, 4});
   const std::map<std::string, std::string> graphs = GraphsOf("cups");
   const std::map<std::string, double> scores = ScoresOf("cups");
-  const int64_t generation =
-      engine_->GetCollection("cups").value().generation;
+  const int64_t generation = engine_->GetCollection("cups").value().generation;
   meshes_->Damage(ComputeSha256(TorusOff(3)));
   ASSERT_OK_AND_ASSIGN(const ReindexReport failed, Reindex(OtherSettings()));
   EXPECT_EQ(failed.run.done, 2);

@@ -36,9 +36,8 @@ class GalleryTest : public ::testing::Test {
     ASSERT_OK_AND_ASSIGN(const std::vector<std::string> ids,
                          catalog_.ListUnstaged(collection.uid, "", 1000));
     for (const std::string& id : ids) {
-      ASSERT_THAT(
-          catalog_.StageShape(SampleStaging(collection, id, 1, stage_)),
-          IsOk());
+      ASSERT_THAT(catalog_.StageShape(SampleStaging(collection, id, 1, stage_)),
+                  IsOk());
     }
   }
   absl::StatusOr<std::optional<CollectionRecord>> SwitchInCatalog(

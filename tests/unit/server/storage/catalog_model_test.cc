@@ -107,7 +107,8 @@ class Operations {
       case 7:
         return DeleteShape(model);
       case 8:
-        return random_.Below(4) == 0 ? BeginStage(model) : SwitchSettings(model);
+        return random_.Below(4) == 0 ? BeginStage(model)
+                                     : SwitchSettings(model);
       case 9:
       case 10:
         return StageShapes(model);
@@ -247,8 +248,8 @@ class Operations {
 
   // Of few, so that stages come again.
   SettingsStage RandomStage() {
-    SettingsStage stage = SampleStage(500 + 100 * static_cast<int>(
-                                                    random_.Below(3)));
+    SettingsStage stage =
+        SampleStage(500 + 100 * static_cast<int>(random_.Below(3)));
     if (random_.Below(20) == 0) ++stage.graph_version;
     return stage;
   }
@@ -281,9 +282,8 @@ class Operations {
     std::vector<ShapeStaging> stagings;
     for (uint64_t i = 0; i < kShapes; ++i) {
       if (random_.Below(16) == 0) continue;
-      ShapeStaging& staging = stagings.emplace_back(
-          SampleStaging(collection, absl::StrCat("s", i),
-                        random_.Below(kMeshes), stage));
+      ShapeStaging& staging = stagings.emplace_back(SampleStaging(
+          collection, absl::StrCat("s", i), random_.Below(kMeshes), stage));
       const auto shape = model.GetShape(collection.id, staging.id);
       if (shape.ok() && random_.Below(16) != 0) staging.sha256 = shape->sha256;
     }

@@ -266,10 +266,10 @@ TEST_F(SqliteCatalogTest, GoesOnWithAStageAfterARestartAndFreesWhatItReplaces) {
   ASSERT_THAT(catalog_->BeginStage("cups", cups_.uid, stage), IsOk());
   const auto put_aside = [&](int from, int to) {
     for (int i = from; i < to; ++i) {
-      ASSERT_THAT(catalog_->StageShape(
-                      SampleStaging(cups_, "s" + std::to_string(i),
-                                    static_cast<uint64_t>(i), stage)),
-                  IsOk());
+      ASSERT_THAT(
+          catalog_->StageShape(SampleStaging(cups_, "s" + std::to_string(i),
+                                             static_cast<uint64_t>(i), stage)),
+          IsOk());
     }
   };
   put_aside(0, kShapes / 2);
@@ -277,9 +277,9 @@ TEST_F(SqliteCatalogTest, GoesOnWithAStageAfterARestartAndFreesWhatItReplaces) {
   Open();
   ASSERT_THAT(catalog_->RemoveUnusedGraphs({}), IsOk());
   put_aside(kShapes / 2, kShapes);
-  ASSERT_OK_AND_ASSIGN(const std::optional<CollectionRecord> switched,
-                       catalog_->SwitchSettings({"cups", cups_.uid, stage,
-                                                 cups_.update_time}));
+  ASSERT_OK_AND_ASSIGN(
+      const std::optional<CollectionRecord> switched,
+      catalog_->SwitchSettings({"cups", cups_.uid, stage, cups_.update_time}));
   ASSERT_TRUE(switched.has_value());
   EXPECT_EQ(CountRows("graph"), 2 * kShapes);
   const StopToken stopped({}, absl::UnixEpoch());
