@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "client/cli/command_set.h"
+#include "client/cli/decomposition_option.h"
 #include "client/cli/ingest_run.h"
 #include "client/cli/interrupt.h"
 #include "core/base/status_macros.h"
@@ -68,11 +69,8 @@ void AddIngestCommand(CLI::App& app, CommandSet& commands) {
       ->type_name("N")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command
-      ->add_option("--decomposition", arguments->decomposition,
-                   "Of a new collection: biharmonic, normal-curvature, voronoi")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"biharmonic", "normal-curvature", "voronoi"}));
+  AddDecompositionOption(command, arguments->decomposition,
+                         "Of a new collection");
   command->add_flag("--replace", arguments->replace,
                     "Replace stored shapes of the same id whose mesh or class "
                     "differs");

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
+#include "client/cli/decomposition_option.h"
 #include "client/cli/progress_line.h"
 #include "client/error_status.h"
 #include "client/resource_name.h"
@@ -37,19 +38,12 @@ absl::StatusOr<StoredShapes> FindStoredShapes(Client& client,
   return stored;
 }
 
-absl::StatusOr<std::optional<v1::CollectionSettings>> SettingsOf(
+std::optional<v1::CollectionSettings> SettingsOf(
     const std::string& decomposition) {
   if (decomposition.empty()) return std::nullopt;
   v1::CollectionSettings settings;
-  for (const auto kind : {v1::DECOMPOSITION_KIND_BIHARMONIC,
-                          v1::DECOMPOSITION_KIND_NORMAL_CURVATURE,
-                          v1::DECOMPOSITION_KIND_VORONOI}) {
-    if (DecompositionName(kind) == decomposition) {
-      settings.set_decomposition(kind);
-      return settings;
-    }
-  }
-  return UsageError("--decomposition: biharmonic, normal-curvature or voronoi");
+  settings.set_decomposition(DecompositionOf(decomposition));
+  return settings;
 }
 
 // One run of ingest: the files, their labels and what became of them.
@@ -86,7 +80,7 @@ absl::Status IngestJob::Prepare() {
       !id.ok()) {
     return UsageError(std::string(id.message()));
   }
-  ARGMESH_ASSIGN_OR_RETURN(settings_, SettingsOf(arguments_.decomposition));
+  settings_ = SettingsOf(arguments_.decomposition);
   ARGMESH_ASSIGN_OR_RETURN(files_, FindMeshFiles(arguments_.paths));
   classes_.resize(files_.size());
   if (!arguments_.labels.empty()) {

@@ -23,6 +23,7 @@ OperationWatch OperationRun::Watch() {
                         static_cast<size_t>(metadata.items()));
     }
     if (progress_) {
+      progress_->SetTotal(static_cast<size_t>(metadata.items()));
       progress_->Advance(static_cast<size_t>(metadata.items_done()));
     }
   };

@@ -27,6 +27,8 @@ class ProgressLine {
 
   // Redraws at most ten times a second.
   void Advance(size_t done);
+  // There is more, or less, to do than was known.
+  void SetTotal(size_t total) { total_ = total; }
   // Prints a line above the progress line.
   void Print(std::string_view line);
   // Removes the line.
@@ -38,7 +40,7 @@ class ProgressLine {
   std::ostream& out_;
   const bool is_terminal_;
   const std::string label_;
-  const size_t total_;
+  size_t total_;
   const absl::Time start_;
   absl::Time drawn_ = absl::InfinitePast();
   size_t done_ = 0;

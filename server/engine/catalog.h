@@ -3,8 +3,9 @@
 // Repeats  A write that returned OK is durable and visible to every later
 //          read; one that failed changed nothing. Every read answers from one
 //          state of the catalog.
-// Order    Each shape write adds 1 to its collection's generation, without
-//          gaps; ReadChanges replays them in that order.
+// Order    Each shape write and each switch of settings adds 1 to its
+//          collection's generation, without gaps; ReadChanges replays them in
+//          that order.
 // Fails    by MakeError with the reasons named at each function, and anywhere
 //          kStoredDataDamaged, kStoreUnavailable, kStoreFull (writes that
 //          add), kOverloaded (writes), kInternal.
@@ -20,6 +21,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
 #include "server/engine/catalog_requests.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/shape_record.h"
@@ -52,7 +54,8 @@ class Catalog {
   // --- shapes ------------------------------------------------------------
   // kCollectionNotFound (also when the id now belongs to another uid),
   // kShapeExists, kEtagMismatch, kRequestIdReused, kFieldInvalid
-  // (CheckDeclaredValues).
+  // (CheckDeclaredValues), kGraphVersionMismatch (the collection has other
+  // settings than the graph was made with).
   virtual absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) = 0;
   // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kFieldInvalid.
   virtual absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) = 0;
@@ -90,6 +93,41 @@ class Catalog {
   virtual absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,
       int limit) const = 0;
+
+  // --- other settings ----------------------------------------------------
+  // A collection gets other settings in three steps: a stage is begun; what
+  // each shape is with the new settings is put aside, while everything goes on
+  // with the old ones; once no shape is missing, one write switches all of
+  // them. A stage outlives Close; it ends with its collection.
+  //
+  // Goes on with the stage when the collection is at it, else forgets what was
+  // put aside for another. A stage of the collection's own settings is none.
+  // kCollectionNotFound.
+  virtual absl::Status BeginStage(std::string_view collection,
+                                  std::string_view collection_uid,
+                                  const SettingsStage& stage) = 0;
+  // In place of what was put aside for the shape before. kCollectionNotFound,
+  // kShapeNotFound, kEtagMismatch (the shape has another mesh),
+  // kGraphVersionMismatch (the collection is not at this stage).
+  virtual absl::Status StageShape(const ShapeStaging& staging) = 0;
+  // Ids of shapes for whose present mesh nothing is put aside, ascending,
+  // after `after_id`.
+  virtual absl::StatusOr<std::vector<std::string>> ListUnstaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const = 0;
+  // As ScanGraphs, of what is put aside for present meshes.
+  virtual absl::StatusOr<std::vector<ScannedGraph>> ScanStaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const = 0;
+  // Gives the collection the stage's settings and every shape what was put
+  // aside for it; each is then as written at the generation of the switch.
+  // The collection as it is then; none, and nothing done, when a shape is
+  // missing. kCollectionNotFound, kGraphVersionMismatch as StageShape.
+  virtual absl::StatusOr<std::optional<CollectionRecord>> SwitchSettings(
+      const SettingsSwitch& change) = 0;
+  // Frees what switches and forgotten stages left behind, in small writes
+  // between others. What it does not come to stays for the next call.
+  virtual absl::Status RemoveUnusedGraphs(const StopToken& stop) = 0;
 
   // --- meshes and requests -----------------------------------------------
   virtual absl::StatusOr<bool> IsMeshReferenced(

@@ -60,6 +60,19 @@ absl::Status CatalogClosedError() {
       absl::Seconds(1));
 }
 
+absl::Status OtherSettingsError(std::string_view id) {
+  return OfCollection(ErrorReason::kGraphVersionMismatch, id,
+                      " has other settings: its graphs cannot be compared");
+}
+
+absl::Status CheckStagedMesh(const Sha256Digest& of,
+                             const Sha256Digest& stored) {
+  if (of == stored) return absl::OkStatus();
+  return MakeError(ErrorReason::kEtagMismatch,
+                   "the shape has another mesh than was described",
+                   {{"sha256", ToHex(stored)}});
+}
+
 absl::Status CheckEtag(std::string_view asked, std::string_view stored) {
   if (asked.empty() || asked == stored) return absl::OkStatus();
   return MakeError(ErrorReason::kEtagMismatch,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "core/base/sha256.h"
 #include "server/engine/metadata_key.h"
 
 namespace argmesh {
@@ -20,6 +21,12 @@ absl::Status ShapeNotFoundError(std::string_view collection,
 absl::Status ShapeExistsError(std::string_view collection, std::string_view id);
 absl::Status RequestIdReusedError(std::string_view request_id);
 absl::Status CatalogClosedError();
+// kGraphVersionMismatch: a graph made with other settings than the collection
+// has, or is to get.
+absl::Status OtherSettingsError(std::string_view id);
+// OK when a shape that has the mesh `stored` is what `of` was made from.
+absl::Status CheckStagedMesh(const Sha256Digest& of,
+                             const Sha256Digest& stored);
 // OK when `asked` is empty or the stored one.
 absl::Status CheckEtag(std::string_view asked, std::string_view stored);
 

@@ -61,14 +61,35 @@ struct SurfaceDescriptors {
   std::string windows;       // read one shape at a time, ReadWindows
 };
 
+// Settings that a collection is to be switched to, and the version of what is
+// computed with them.
+struct SettingsStage {
+  CollectionSettings settings;
+  uint32_t graph_version = 0;
+
+  friend bool operator==(const SettingsStage&, const SettingsStage&) = default;
+};
+
+// What a shape is with the settings of a stage.
+struct StagedDescription {
+  SettingsStage stage;
+  MeshReport report;
+  GraphSummary summary;
+  std::string graph;   // SerializeShapeGraph
+  std::string labels;  // SerializeFaceLabels
+};
+
 struct ShapePut {
   // Comes with uid and times; the generation is given by the catalog.
   ShapeRecord record;
   std::string collection_uid;
+  CollectionSettings settings;  // that the graph was made with
   uint32_t graph_version = 0;
   std::string graph;   // SerializeShapeGraph
   std::string labels;  // SerializeFaceLabels
   SurfaceDescriptors descriptors;
+  // Put aside with it when the collection is at this stage.
+  std::optional<StagedDescription> staged;
   IfExists if_exists = IfExists::kFail;
   std::string etag;  // of the shape to be replaced; empty: any
   RequestStamp request;
@@ -86,6 +107,22 @@ struct ShapeWritten {
   std::string collection_uid;
   bool written = true;  // false: was stored already, by kReturnSame or a retry
   std::vector<Sha256Digest> unreferenced;  // as above
+};
+
+// Puts aside what a shape is with other settings.
+struct ShapeStaging {
+  std::string collection;
+  std::string collection_uid;
+  std::string id;
+  Sha256Digest sha256{};  // of the mesh it was made from
+  StagedDescription description;
+};
+
+struct SettingsSwitch {
+  std::string collection;
+  std::string collection_uid;
+  SettingsStage stage;
+  absl::Time update_time;
 };
 
 struct ShapePatch {
@@ -113,6 +150,7 @@ struct ShapeDeleted {
 
 struct StoredGraph {
   ShapeRecord record;
+  CollectionSettings settings;  // that it was made with
   uint32_t graph_version = 0;
   std::string graph;
   std::string signature;  // empty: the shape has none
@@ -121,6 +159,7 @@ struct StoredGraph {
 
 struct ScannedGraph {
   ShapeRecord record;
+  CollectionSettings settings;  // that it was made with
   uint32_t graph_version = 0;
   std::string graph;
   std::string signature;     // empty: the shape has none
@@ -129,9 +168,10 @@ struct ScannedGraph {
 };
 
 struct ShapeChange {
-  enum class Kind { kPut = 1, kDelete = 2 };
+  // kSwitch: every shape got its description of other settings.
+  enum class Kind { kPut = 1, kDelete = 2, kSwitch = 3 };
   int64_t generation = 0;
-  std::string id;
+  std::string id;  // empty of kSwitch
   Kind kind = Kind::kPut;
 };
 

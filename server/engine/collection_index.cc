@@ -64,6 +64,16 @@ void CollectionIndex::RemoveEntry(const std::string& id) {
   slots_.erase(it);
 }
 
+void CollectionIndex::Replace(CollectionIndex&& other) {
+  settings_ = other.settings_;
+  ++switches_;
+  blocks_ = std::move(other.blocks_);
+  slots_ = std::move(other.slots_);
+  free_slots_ = std::move(other.free_slots_);
+  windows_ = std::move(other.windows_);
+  unusable_ = std::move(other.unusable_);
+}
+
 std::vector<std::string> CollectionIndex::Outdated() const {
   std::vector<std::string> ids;
   for (const auto& [id, why] : unusable_) {
@@ -78,6 +88,7 @@ void CollectionIndex::Publish(int64_t generation) {
   snapshot->collection = collection_;
   snapshot->collection_uid = collection_uid_;
   snapshot->settings = settings_;
+  snapshot->switches = switches_;
   snapshot->generation = generation;
   snapshot->size = static_cast<int64_t>(slots_.size());
   snapshot->damaged_shapes = std::count_if(

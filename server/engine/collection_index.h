@@ -32,6 +32,12 @@ class CollectionIndex {
   void PutUnusable(const std::string& id, Unusable why);
   void Remove(const std::string& id);
 
+  // Settings and shapes are those of `other` from now on, an index of the same
+  // collection; what is published stays until the next Publish.
+  void Replace(CollectionIndex&& other);
+
+  const CollectionSettings& settings() const { return settings_; }
+
   // Ids of the shapes that another version described, ascending.
   std::vector<std::string> Outdated() const;
 
@@ -53,7 +59,8 @@ class CollectionIndex {
 
   const std::string collection_;
   const std::string collection_uid_;
-  const CollectionSettings settings_;
+  CollectionSettings settings_;
+  int64_t switches_ = 0;  // calls of Replace
   std::vector<Block> blocks_;
   std::unordered_map<std::string, size_t> slots_;  // of the ids
   std::vector<size_t> free_slots_;

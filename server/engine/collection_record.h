@@ -12,8 +12,8 @@
 
 namespace argmesh {
 
-// Fixed when the collection is created: graphs of different settings are not
-// comparable.
+// Of every graph of the collection: graphs of different settings are not
+// comparable. Changed for all shapes at once (Catalog::SwitchSettings).
 struct CollectionSettings {
   // Not kGiven: labels cannot be stored as a setting.
   DecompositionKind decomposition = DecompositionKind::kBiharmonic;
@@ -24,6 +24,13 @@ struct CollectionSettings {
   friend bool operator==(const CollectionSettings&,
                          const CollectionSettings&) = default;
 };
+
+// Whether both make the same graph of a mesh: graphs of the one may be compared
+// with those of the other.
+inline bool MakeSameGraphs(CollectionSettings a, const CollectionSettings& b) {
+  a.store_meshes = b.store_meshes;  // says nothing about graphs
+  return a == b;
+}
 
 struct CollectionRecord {
   std::string id;

@@ -36,7 +36,8 @@ Engine::Parts::Parts(const EngineOptions& engine_options,
       meshes(std::move(engine_meshes)),
       pool(options.pool),
       gallery(*catalog, pool),
-      ingest(options, *catalog, *meshes, gallery),
+      ingest(options, *catalog, *meshes, gallery, running_reindexes),
+      reindexer(*catalog, gallery, ingest, pool, running_reindexes),
       search(options, *catalog, *meshes, gallery, pool) {}
 
 absl::Status Engine::Parts::CheckOpen() const {
@@ -53,8 +54,10 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
   auto parts =
       std::make_unique<Parts>(options, std::move(catalog), std::move(meshes));
   parts->startup = std::jthread([&p = *parts](std::stop_token stop) {
-    p.gallery.Load(StopToken(stop, absl::InfiniteFuture()));
-    // Nothing waits for the sweep; what it leaves goes at the next start.
+    const StopToken token(stop, absl::InfiniteFuture());
+    p.gallery.Load(token);
+    // Nothing waits for the sweeps; what they leave goes at the next start.
+    (void)p.catalog->RemoveUnusedGraphs(token);
     (void)p.meshes->Sweep(
         absl::Now() - p.options.sweep_age,
         [&](const Sha256Digest& sha256) -> absl::StatusOr<bool> {

@@ -29,6 +29,7 @@
 #include "server/engine/item_run.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/mesh_upload.h"
+#include "server/engine/reindex_report.h"
 #include "server/engine/search_requests.h"
 #include "server/engine/shape_requests.h"
 
@@ -86,13 +87,23 @@ class Engine {
                                             bool with_labels) const;
 
   // --- long work, on the caller's thread and pool(); as RunItems -----------
-  // The collection, when its shapes can be described anew. kMeshNotStored.
-  absl::StatusOr<CollectionRecord> CheckReindex(std::string_view id) const;
+  // OK when the collection's shapes can be described anew now, with `settings`
+  // if they are given. kMeshNotStored, kFieldInvalid, kOverloaded (it is being
+  // reindexed).
+  absl::Status CheckReindex(
+      std::string_view id,
+      const std::optional<CollectionSettings>& settings) const;
   // Describes the shapes that another version described anew from their
-  // meshes; a failure is of its shape, and it stays as it was. Searches go on.
-  // Items are shape ids. As CheckReindex, kIndexLoading.
-  absl::StatusOr<RunReport> Reindex(const std::string& collection,
-                                    const RunControl& control);
+  // meshes; a failure is of its shape, and it stays as it was. With `settings`
+  // it then describes every shape with these and, when none failed, switches
+  // the collection to them, all at once. Searches go on with what was there
+  // before, and shapes may be written meanwhile. What was described is kept for
+  // the next call when it is stopped or fails. Items are shape ids. As
+  // CheckReindex, kIndexLoading.
+  absl::StatusOr<ReindexReport> Reindex(
+      const std::string& collection,
+      const std::optional<CollectionSettings>& settings,
+      const RunControl& control);
   // Stores the mesh files below a folder of `source`. Items are their paths,
   // which are their source_uri and make their ids. kFileUnreadable.
   absl::StatusOr<RunReport> Import(const FolderImport& folder,

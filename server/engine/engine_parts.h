@@ -16,6 +16,8 @@
 #include "server/engine/gallery.h"
 #include "server/engine/ingest.h"
 #include "server/engine/mesh_store.h"
+#include "server/engine/reindex.h"
+#include "server/engine/running_reindexes.h"
 #include "server/engine/shape_search.h"
 
 namespace argmesh {
@@ -30,10 +32,6 @@ class Engine::Parts {
   // Index and meshes do without what the catalog has no more; its generation.
   int64_t FollowDeletion(const std::string& collection,
                          const ShapeDeleted& deleted);
-  // One item of Reindex.
-  absl::StatusOr<ItemOutcome> DescribeAnew(const CollectionRecord& collection,
-                                           const std::string& id,
-                                           const StopToken& stop);
 
   // In the order they are made; each may use those before it.
   const EngineOptions options;
@@ -41,11 +39,13 @@ class Engine::Parts {
   const std::unique_ptr<MeshStore> meshes;
   ComputePool pool;
   Gallery gallery;
+  RunningReindexes running_reindexes;
   Ingest ingest;
+  Reindexer reindexer;
   ShapeSearch search;
   std::atomic<bool> closed{false};
   std::mutex close_mutex;
-  std::jthread startup;  // loads the gallery, then sweeps the mesh store
+  std::jthread startup;  // loads the gallery, then sweeps the stores
 };
 
 }  // namespace argmesh

@@ -1,55 +1,29 @@
 // The engine's long work.
 #include <utility>
 
-#include "absl/time/clock.h"
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
 #include "server/engine/engine.h"
 #include "server/engine/engine_parts.h"
-#include "server/engine/error_reason.h"
-#include "server/engine/query_resolver.h"
+#include "server/engine/request_rules.h"
 
 namespace argmesh {
 
-absl::StatusOr<ItemOutcome> Engine::Parts::DescribeAnew(
-    const CollectionRecord& collection, const std::string& id,
-    const StopToken& stop) {
-  while (true) {
-    absl::StatusOr<ShapeRecord> stored = catalog->GetShape(collection.id, id);
-    absl::Status status = stored.status();
-    if (stored.ok()) status = ingest.DescribeAnew(collection, *stored, stop);
-    if (status.ok()) return ItemOutcome::kDone;
-    if (absl::IsNotFound(status)) return ItemOutcome::kWasDone;  // deleted
-    // The shape was updated meanwhile.
-    if (ReasonOf(status) != ErrorReason::kEtagMismatch) return status;
-  }
+absl::Status Engine::CheckReindex(
+    std::string_view id,
+    const std::optional<CollectionSettings>& settings) const {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", id));
+  return parts_->reindexer.Check(id, settings).status();
 }
 
-absl::StatusOr<CollectionRecord> Engine::CheckReindex(
-    std::string_view id) const {
-  ARGMESH_ASSIGN_OR_RETURN(CollectionRecord record, GetCollection(id));
-  if (record.settings.store_meshes) return record;
-  ShapeRecord any;
-  any.collection = record.id;
-  return MeshNotStoredError(any);
-}
-
-absl::StatusOr<RunReport> Engine::Reindex(const std::string& collection,
-                                          const RunControl& control) {
-  ARGMESH_ASSIGN_OR_RETURN(CollectionRecord record, CheckReindex(collection));
-  if (record.graph_version != kShapeGraphVersion) {
-    // From here on it takes shapes again.
-    CollectionPatch patch;
-    patch.id = collection;
-    patch.graph_version = kShapeGraphVersion;
-    patch.update_time = absl::Now();
-    ARGMESH_ASSIGN_OR_RETURN(record, parts_->catalog->UpdateCollection(patch));
-  }
-  ARGMESH_ASSIGN_OR_RETURN(const std::vector<std::string> outdated,
-                           parts_->gallery.Outdated(collection));
-  return RunItems(parts_->pool, outdated, control, [&](const std::string& id) {
-    return parts_->DescribeAnew(record, id, control.stop);
-  });
+absl::StatusOr<ReindexReport> Engine::Reindex(
+    const std::string& collection,
+    const std::optional<CollectionSettings>& settings,
+    const RunControl& control) {
+  ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", collection));
+  return parts_->reindexer.Run(collection, settings, control);
 }
 
 absl::StatusOr<RunReport> Engine::Import(const FolderImport& folder,

@@ -10,7 +10,6 @@
 #include "core/graph/graph_codec.h"
 #include "core/signature/signature_codec.h"
 #include "server/engine/catalog_errors.h"
-#include "server/engine/collection_index.h"
 #include "server/engine/error_reason.h"
 
 namespace argmesh {
@@ -21,7 +20,7 @@ constexpr int kChangePage = 256;
 constexpr absl::Duration kLoadRetryDelay = absl::Seconds(1);
 
 // kFailedPrecondition for what another version computed.
-absl::StatusOr<IndexedShape> ParseScanned(const ScannedGraph& scanned) {
+absl::StatusOr<Gallery::ParsedShape> ParseScanned(const ScannedGraph& scanned) {
   ARGMESH_RETURN_IF_ERROR(scanned.status);
   if (scanned.graph_version != kShapeGraphVersion ||
       scanned.signature.empty() || scanned.window_words.empty()) {
@@ -31,17 +30,28 @@ absl::StatusOr<IndexedShape> ParseScanned(const ScannedGraph& scanned) {
                            ParseShapeGraph(scanned.graph));
   ARGMESH_ASSIGN_OR_RETURN(const ShapeSignature signature,
                            DecodeSignature(scanned.signature));
-  IndexedShape shape;
+  Gallery::ParsedShape shape;
   ARGMESH_ASSIGN_OR_RETURN(shape.words, ParseWindowWords(scanned.window_words));
-  shape.entry = std::make_shared<const GalleryEntry>(GalleryEntry{
+  shape.entry = std::make_shared<GalleryEntry>(GalleryEntry{
       scanned.record, MatchableGraph(graph), PackedSignature(signature)});
   return shape;
 }
 
+std::vector<absl::StatusOr<Gallery::ParsedShape>> ParsePage(
+    const std::vector<ScannedGraph>& page, ComputePool& pool) {
+  std::vector<absl::StatusOr<Gallery::ParsedShape>> shapes(page.size());
+  pool.ParallelFor(WorkClass::kSearch, static_cast<int64_t>(page.size()),
+                   [&](int64_t i) {
+                     const auto at = static_cast<size_t>(i);
+                     shapes[at] = ParseScanned(page[at]);
+                   });
+  return shapes;
+}
+
 void PutParsed(CollectionIndex& index, const std::string& id,
-               absl::StatusOr<IndexedShape> shape) {
+               absl::StatusOr<Gallery::ParsedShape> shape) {
   if (shape.ok()) {
-    index.Put(*std::move(shape));
+    index.Put({std::move(shape->entry), std::move(shape->words)});
   } else if (absl::IsFailedPrecondition(shape.status())) {
     index.PutUnusable(id, CollectionIndex::Unusable::kOutdated);
   } else {
@@ -63,6 +73,7 @@ class Gallery::Slot {
 
   std::mutex update_mutex;  // guards changes of the index and `applied`
   int64_t applied = 0;      // generation the index has reached
+  StagedShapes staged;      // for the switch that is being made
 
   mutable std::mutex mutex;  // guards what follows
   bool following = false;    // Load has read everything: changes are applied
@@ -149,12 +160,7 @@ absl::Status Gallery::LoadSlot(Slot& slot, const StopToken& stop) {
                              catalog_.ScanGraphs(slot.uid, after, kScanPage));
     if (page.empty()) break;
     after = page.back().record.id;
-    std::vector<absl::StatusOr<IndexedShape>> shapes(page.size());
-    pool_.ParallelFor(WorkClass::kSearch, static_cast<int64_t>(page.size()),
-                      [&](int64_t i) {
-                        const auto at = static_cast<size_t>(i);
-                        shapes[at] = ParseScanned(page[at]);
-                      });
+    auto shapes = ParsePage(page, pool_);
     for (size_t i = 0; i < page.size(); ++i) {
       PutParsed(slot.index, page[i].record.id, std::move(shapes[i]));
     }
@@ -187,6 +193,10 @@ void Gallery::Follow(std::string_view collection,
 
 void Gallery::CatchUp(Slot& slot) const {
   const std::lock_guard update(slot.update_mutex);
+  ApplyKnown(slot);
+}
+
+void Gallery::ApplyKnown(Slot& slot) const {
   const int64_t before = slot.applied;
   const absl::Status status = ApplyChanges(slot);
   if (slot.applied != before || slot.index.snapshot() == nullptr) {
@@ -213,17 +223,28 @@ absl::Status Gallery::ApplyChanges(Slot& slot) const {
       return absl::OkStatus();
     }
     for (const ShapeChange& change : changes) {
+      // A change before it may have rebuilt everything up to a later one.
+      if (change.generation <= slot.applied) continue;
       ARGMESH_RETURN_IF_ERROR(ApplyChange(slot, change));
-      slot.applied = change.generation;
+      slot.applied = std::max(slot.applied, change.generation);
     }
   }
 }
 
 absl::Status Gallery::ApplyChange(Slot& slot, const ShapeChange& change) const {
-  if (change.kind == ShapeChange::Kind::kDelete) {
-    slot.index.Remove(change.id);
-    return absl::OkStatus();
+  switch (change.kind) {
+    case ShapeChange::Kind::kPut:
+      return ApplyPut(slot, change);
+    case ShapeChange::Kind::kDelete:
+      slot.index.Remove(change.id);
+      return absl::OkStatus();
+    case ShapeChange::Kind::kSwitch:
+      return Rebuild(slot);
   }
+  return absl::InternalError("a change of no kind");
+}
+
+absl::Status Gallery::ApplyPut(Slot& slot, const ShapeChange& change) const {
   std::optional<IndexedShape> written;
   {
     const std::lock_guard lock(slot.mutex);
@@ -241,7 +262,53 @@ absl::Status Gallery::ApplyChange(Slot& slot, const ShapeChange& change) const {
     return absl::OkStatus();
   }
   ARGMESH_RETURN_IF_ERROR(stored.status());
+  // A switch that comes later in the log has been committed already.
+  if (stored->status.ok() &&
+      !MakeSameGraphs(stored->settings, slot.index.settings())) {
+    return Rebuild(slot);
+  }
   PutParsed(slot.index, change.id, ParseScanned(*stored));
+  return absl::OkStatus();
+}
+
+absl::Status Gallery::PutCurrent(Slot& slot, const ShapeRecord& record,
+                                 CollectionIndex& index) const {
+  const auto it = slot.staged.find(record.id);
+  if (it != slot.staged.end() &&
+      it->second.entry->record.sha256 == record.sha256) {
+    it->second.entry->record = record;
+    index.Put({std::move(it->second.entry), std::move(it->second.words)});
+    slot.staged.erase(it);
+    return absl::OkStatus();
+  }
+  const absl::StatusOr<ScannedGraph> stored =
+      catalog_.FindGraph(slot.uid, record.id);
+  if (absl::IsNotFound(stored.status())) return absl::OkStatus();
+  ARGMESH_RETURN_IF_ERROR(stored.status());
+  PutParsed(index, record.id, ParseScanned(*stored));
+  return absl::OkStatus();
+}
+
+// What is stored now, whatever was applied before; later changes are applied
+// to it again, which changes nothing.
+absl::Status Gallery::Rebuild(Slot& slot) const {
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
+                           catalog_.GetCollection(slot.id));
+  if (collection.uid != slot.uid) return CollectionNotFoundError(slot.id);
+  CollectionIndex index(collection);
+  std::string after;
+  while (true) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const std::vector<ShapeRecord> page,
+        catalog_.ListShapes(slot.id, {after, kScanPage, ""}));
+    if (page.empty()) break;
+    after = page.back().id;
+    for (const ShapeRecord& record : page) {
+      ARGMESH_RETURN_IF_ERROR(PutCurrent(slot, record, index));
+    }
+  }
+  slot.index.Replace(std::move(index));
+  slot.applied = collection.generation;
   return absl::OkStatus();
 }
 
@@ -275,6 +342,54 @@ absl::StatusOr<GallerySnapshotPtr> Gallery::Snapshot(
         kLoadRetryDelay);
   }
   return snapshot;
+}
+
+absl::StatusOr<GallerySnapshotPtr> Gallery::LatestSnapshot(
+    std::string_view collection) const {
+  if (const SlotPtr slot = FindSlot(collection)) {
+    const std::lock_guard update(slot->update_mutex);  // nobody applies changes
+  }
+  return Snapshot(collection, 0);
+}
+
+absl::StatusOr<Gallery::StagedShapes> Gallery::ReadStaged(
+    const CollectionRecord& collection, const StopToken& stop) const {
+  ARGMESH_RETURN_IF_ERROR(Snapshot(collection.id, 0).status());
+  StagedShapes staged;
+  std::string after;
+  while (true) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    ARGMESH_ASSIGN_OR_RETURN(
+        const std::vector<ScannedGraph> page,
+        catalog_.ScanStaged(collection.uid, after, kScanPage));
+    if (page.empty()) return staged;
+    after = page.back().record.id;
+    auto shapes = ParsePage(page, pool_);
+    for (size_t i = 0; i < page.size(); ++i) {
+      if (shapes[i].ok()) staged[page[i].record.id] = *std::move(shapes[i]);
+    }
+  }
+}
+
+absl::StatusOr<std::optional<CollectionRecord>> Gallery::Switch(
+    const CollectionRecord& collection, StagedShapes& staged,
+    const std::function<absl::StatusOr<std::optional<CollectionRecord>>()>&
+        commit) {
+  const SlotPtr slot = FindSlot(collection.id);
+  if (slot == nullptr || slot->uid != collection.uid) {
+    return CollectionNotFoundError(collection.id);
+  }
+  const std::lock_guard update(slot->update_mutex);
+  ARGMESH_ASSIGN_OR_RETURN(std::optional<CollectionRecord> switched, commit());
+  if (!switched) return switched;
+  {
+    const std::lock_guard lock(slot->mutex);
+    slot->known = std::max(slot->known, switched->generation);
+  }
+  slot->staged = std::move(staged);
+  ApplyKnown(*slot);
+  slot->staged.clear();
+  return switched;
 }
 
 absl::StatusOr<std::vector<std::string>> Gallery::Outdated(

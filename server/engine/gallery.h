@@ -2,7 +2,9 @@
 //
 // Load reads what is stored; after each committed write Follow applies the
 // catalog's changes in the order of their generations, so that a write that
-// returned is seen by every later search. A collection that cannot be read is
+// returned is seen by every later search. A collection that was switched to
+// other settings is built anew beside the old state, which serves until then. A
+// collection that cannot be read is
 // reported and does not stop the others; a damaged shape is left out and
 // counted. Thread-safe.
 #ifndef ARGMESH_SERVER_ENGINE_GALLERY_H_
@@ -16,12 +18,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/base/stop_token.h"
 #include "server/engine/catalog.h"
+#include "server/engine/collection_index.h"
 #include "server/engine/compute_pool.h"
 #include "server/engine/gallery_snapshot.h"
 #include "server/engine/index_state.h"
@@ -31,6 +35,13 @@ namespace argmesh {
 
 class Gallery {
  public:
+  // A shape as read, whose record may still change; by id.
+  struct ParsedShape {
+    std::shared_ptr<GalleryEntry> entry;
+    WindowWords words;
+  };
+  using StagedShapes = std::unordered_map<std::string, ParsedShape>;
+
   // Both must outlive the gallery.
   Gallery(const Catalog& catalog, ComputePool& pool);
   ~Gallery();
@@ -55,6 +66,23 @@ class Gallery {
   absl::StatusOr<GallerySnapshotPtr> Snapshot(std::string_view collection,
                                               int64_t min_generation) const;
 
+  // As Snapshot, after the changes that are being applied now.
+  absl::StatusOr<GallerySnapshotPtr> LatestSnapshot(
+      std::string_view collection) const;
+
+  // What is put aside of the collection's shapes, ready for the index: a
+  // switch that has it takes moments. As Snapshot, and as `stop`.
+  absl::StatusOr<StagedShapes> ReadStaged(const CollectionRecord& collection,
+                                          const StopToken& stop) const;
+  // Runs `commit`, which switches the collection's settings in the catalog or
+  // does nothing; the index follows before any later write. Searches go on
+  // with the old shapes until all are the new ones. What `commit` answers;
+  // `staged` is used up unless that is none.
+  absl::StatusOr<std::optional<CollectionRecord>> Switch(
+      const CollectionRecord& collection, StagedShapes& staged,
+      const std::function<absl::StatusOr<std::optional<CollectionRecord>>()>&
+          commit);
+
   // Ids of the shapes that another version described, ascending. As Snapshot.
   absl::StatusOr<std::vector<std::string>> Outdated(
       std::string_view collection) const;
@@ -72,8 +100,14 @@ class Gallery {
   absl::Status AddStored();
   absl::Status LoadSlot(Slot& slot, const StopToken& stop);
   void CatchUp(Slot& slot) const;
+  // With the slot's update_mutex, here and below.
+  void ApplyKnown(Slot& slot) const;
   absl::Status ApplyChanges(Slot& slot) const;
   absl::Status ApplyChange(Slot& slot, const ShapeChange& change) const;
+  absl::Status ApplyPut(Slot& slot, const ShapeChange& change) const;
+  absl::Status Rebuild(Slot& slot) const;
+  absl::Status PutCurrent(Slot& slot, const ShapeRecord& record,
+                          CollectionIndex& index) const;
   void SetState(IndexState state);
 
   const Catalog& catalog_;

@@ -40,6 +40,7 @@ struct GallerySnapshot {
   std::string collection;
   std::string collection_uid;
   CollectionSettings settings;
+  int64_t switches = 0;  // of settings, since it was loaded
   int64_t generation = 0;
   int64_t size = 0;             // entries
   int64_t damaged_shapes = 0;   // not among the entries

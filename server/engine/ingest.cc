@@ -74,11 +74,13 @@ struct Ingest::Described {
 };
 
 Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
-               MeshStore& meshes, Gallery& gallery)
+               MeshStore& meshes, Gallery& gallery,
+               const RunningReindexes& running)
     : options_(options),
       catalog_(catalog),
       meshes_(meshes),
-      gallery_(gallery) {}
+      gallery_(gallery),
+      running_(running) {}
 
 MeshStore::IsReferenced Ingest::is_referenced() const {
   return [this](const Sha256Digest& sha256) {
@@ -163,18 +165,57 @@ absl::StatusOr<AddedShape> Ingest::Commit(const ShapePut& put,
   return AddedShape{std::move(written.record), !written.written};
 }
 
-absl::StatusOr<AddedShape> Ingest::Store(Source& source, const ShapePut& put,
-                                         Searchable searchable) {
-  if (!put.record.mesh_stored) return Commit(put, std::move(searchable));
+// With the settings that the collection has when it is written: what a switch
+// overtook is described again.
+absl::StatusOr<AddedShape> Ingest::CommitAsIs(const NewShape& shape,
+                                              const Source& source,
+                                              Described described,
+                                              const StopToken& stop) {
+  while (true) {
+    absl::StatusOr<AddedShape> added =
+        Commit(described.put, std::move(described.searchable));
+    if (ReasonOf(added.status()) != ErrorReason::kGraphVersionMismatch) {
+      return added;
+    }
+    ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
+                             catalog_.GetCollection(shape.collection));
+    RequestStamp request = std::move(described.put.request);
+    ARGMESH_ASSIGN_OR_RETURN(described,
+                             Describe(shape, collection, source, stop));
+    described.put.request = std::move(request);
+  }
+}
+
+absl::StatusOr<AddedShape> Ingest::Store(const NewShape& shape, Source& source,
+                                         Described described,
+                                         const StopToken& stop) {
+  if (!described.put.record.mesh_stored) {
+    return CommitAsIs(shape, source, std::move(described), stop);
+  }
   absl::StatusOr<AddedShape> added;
   {
     ARGMESH_ASSIGN_OR_RETURN(const MeshPin pin, PublishMesh(source));
-    added = Commit(put, std::move(searchable));
+    added = CommitAsIs(shape, source, std::move(described), stop);
   }
   if (!added.ok() || added->already_stored) {
     RemoveMeshes({source.sha256});  // unless another shape has it
   }
   return added;
+}
+
+absl::StatusOr<StagedDescription> Ingest::DescribeWith(
+    const CollectionSettings& settings, const std::string& bytes,
+    MeshFormat format, const StopToken& stop) const {
+  ARGMESH_ASSIGN_OR_RETURN(
+      const AnalyzedMesh analyzed,
+      AnalyzeMesh(bytes, format, settings, options_, stop));
+  StagedDescription description;
+  description.stage = {settings, kShapeGraphVersion};
+  description.report = analyzed.computed.report;
+  description.summary = SummarizeGraph(analyzed.computed.graph);
+  description.graph = SerializeShapeGraph(analyzed.computed.graph);
+  description.labels = SerializeFaceLabels(analyzed.computed.labels);
+  return description;
 }
 
 absl::StatusOr<Ingest::Described> Ingest::Describe(
@@ -189,6 +230,7 @@ absl::StatusOr<Ingest::Described> Ingest::Describe(
   put.record.size_bytes = static_cast<int64_t>(source.bytes.size());
   put.record.mesh_stored = collection.settings.store_meshes;
   put.collection_uid = collection.uid;
+  put.settings = collection.settings;
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(analyzed.computed.graph);
   put.labels = SerializeFaceLabels(analyzed.computed.labels);
@@ -197,6 +239,13 @@ absl::StatusOr<Ingest::Described> Ingest::Describe(
   put.descriptors = std::move(surface.bytes);
   put.if_exists = shape.if_exists;
   put.etag = shape.etag;
+  const auto goal = running_.Goal(collection.uid);
+  if (goal && !MakeSameGraphs(*goal, collection.settings)) {
+    // One that fails is left to the reindex, which tells why.
+    absl::StatusOr<StagedDescription> staged =
+        DescribeWith(*goal, source.bytes, shape.format, stop);
+    if (staged.ok()) put.staged = *std::move(staged);
+  }
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   return Described{
       std::move(put),
@@ -224,6 +273,23 @@ absl::Status Ingest::DescribeAnew(const CollectionRecord& collection,
   // The mesh is there and stays: the row that names it is replaced by one that
   // does, or not at all.
   return Commit(described.put, std::move(described.searchable)).status();
+}
+
+absl::Status Ingest::PutAside(const CollectionRecord& collection,
+                              const ShapeRecord& stored,
+                              const CollectionSettings& settings,
+                              const StopToken& stop) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
+                           ReadMeshFile(meshes_, stored));
+  ShapeStaging staging;
+  staging.collection = collection.id;
+  staging.collection_uid = collection.uid;
+  staging.id = stored.id;
+  staging.sha256 = stored.sha256;
+  ARGMESH_ASSIGN_OR_RETURN(staging.description,
+                           DescribeWith(settings, bytes, stored.format, stop));
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  return catalog_.StageShape(staging);
 }
 
 absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
@@ -255,7 +321,7 @@ absl::StatusOr<AddedShape> Ingest::AddShape(const NewShape& shape,
   ARGMESH_ASSIGN_OR_RETURN(Described described,
                            Describe(shape, collection, source, stop));
   described.put.request = std::move(request);
-  return Store(source, described.put, std::move(described.searchable));
+  return Store(shape, source, std::move(described), stop);
 }
 
 }  // namespace argmesh

@@ -19,6 +19,7 @@
 #include "server/engine/mesh_analysis.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/mesh_upload.h"
+#include "server/engine/running_reindexes.h"
 #include "server/engine/shape_requests.h"
 
 namespace argmesh {
@@ -27,7 +28,7 @@ class Ingest {
  public:
   // All must outlive it.
   Ingest(const EngineOptions& options, Catalog& catalog, MeshStore& meshes,
-         Gallery& gallery);
+         Gallery& gallery, const RunningReindexes& running);
 
   absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
                                       const StopToken& stop);
@@ -36,6 +37,14 @@ class Ingest {
   // meanwhile. kMeshNotStored, kEtagMismatch, kShapeNotFound.
   absl::Status DescribeAnew(const CollectionRecord& collection,
                             const ShapeRecord& stored, const StopToken& stop);
+
+  // Describes a stored shape with other settings, and puts that aside.
+  // kMeshNotStored, kEtagMismatch when it has another mesh by then,
+  // kShapeNotFound, kGraphVersionMismatch.
+  absl::Status PutAside(const CollectionRecord& collection,
+                        const ShapeRecord& stored,
+                        const CollectionSettings& settings,
+                        const StopToken& stop);
 
   // Removes meshes that rows no longer name. What cannot be removed now is
   // left to the sweep of the next start.
@@ -57,14 +66,22 @@ class Ingest {
                                      const CollectionRecord& collection,
                                      const Source& source,
                                      const StopToken& stop) const;
-  absl::StatusOr<AddedShape> Store(Source& source, const ShapePut& put,
-                                   Searchable searchable);
+  absl::StatusOr<StagedDescription> DescribeWith(
+      const CollectionSettings& settings, const std::string& bytes,
+      MeshFormat format, const StopToken& stop) const;
+  absl::StatusOr<AddedShape> Store(const NewShape& shape, Source& source,
+                                   Described described, const StopToken& stop);
+  absl::StatusOr<AddedShape> CommitAsIs(const NewShape& shape,
+                                        const Source& source,
+                                        Described described,
+                                        const StopToken& stop);
   absl::StatusOr<AddedShape> Commit(const ShapePut& put, Searchable searchable);
 
   const EngineOptions& options_;
   Catalog& catalog_;
   MeshStore& meshes_;
   Gallery& gallery_;
+  const RunningReindexes& running_;
 };
 
 }  // namespace argmesh

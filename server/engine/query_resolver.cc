@@ -9,6 +9,7 @@
 #include "core/graph/graph_codec.h"
 #include "core/mesh/mesh_repair.h"
 #include "core/signature/signature_codec.h"
+#include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/mesh_analysis.h"
 #include "server/engine/request_rules.h"
@@ -146,18 +147,13 @@ absl::StatusOr<StoredGraph> QueryResolver::ReadGraph(
     const ShapeRef& shape, const CollectionSettings& settings,
     bool with_labels) const {
   ARGMESH_RETURN_IF_ERROR(CheckShapeRef(shape));
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
-                           catalog_.GetCollection(shape.collection));
-  CollectionSettings compared = collection.settings;
-  compared.store_meshes = settings.store_meshes;  // says nothing about graphs
-  if (compared != settings) {
-    return MakeError(ErrorReason::kGraphVersionMismatch,
-                     absl::StrFormat("collection %s has other settings: its "
-                                     "graphs cannot be compared",
-                                     shape.collection),
-                     {{"collection", shape.collection}});
+  ARGMESH_ASSIGN_OR_RETURN(
+      StoredGraph stored,
+      catalog_.ReadGraph(shape.collection, shape.id, with_labels));
+  if (!MakeSameGraphs(stored.settings, settings)) {
+    return OtherSettingsError(shape.collection);
   }
-  return catalog_.ReadGraph(shape.collection, shape.id, with_labels);
+  return stored;
 }
 
 absl::StatusOr<ResolvedQuery> QueryResolver::ResolveStored(

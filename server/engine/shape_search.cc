@@ -8,6 +8,7 @@
 #include "core/base/status_macros.h"
 #include "core/base/stopwatch.h"
 #include "core/matching/fused_score.h"
+#include "server/engine/error_reason.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/search_reranking.h"
 
@@ -117,6 +118,23 @@ absl::StatusOr<ResolvedQuery> ShapeSearch::Resolve(
                                  query.region_nodes, settings, needs, stop);
 }
 
+absl::StatusOr<ResolvedQuery> ShapeSearch::ResolveFor(
+    const SearchQuery& query, const StopToken& stop,
+    SearchedShapes& searched) const {
+  while (true) {
+    absl::StatusOr<ResolvedQuery> resolved =
+        Resolve(query, searched.gallery->settings, stop);
+    if (ReasonOf(resolved.status()) != ErrorReason::kGraphVersionMismatch) {
+      return resolved;
+    }
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    ARGMESH_ASSIGN_OR_RETURN(const GallerySnapshotPtr latest,
+                             gallery_.LatestSnapshot(query.collection));
+    if (latest->switches == searched.gallery->switches) return resolved;
+    ARGMESH_ASSIGN_OR_RETURN(searched, Select(query, stop));
+  }
+}
+
 absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
                                        const ResolvedQuery& resolved,
                                        const SearchedShapes& searched,
@@ -211,11 +229,11 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   SearchAnswer answer;
   StageClock clock(answer.stats.stages);
-  ARGMESH_ASSIGN_OR_RETURN(const SearchedShapes searched, Select(query, stop));
+  ARGMESH_ASSIGN_OR_RETURN(SearchedShapes searched, Select(query, stop));
   clock.Lap("filter");
-  const GallerySnapshot& gallery = *searched.gallery;
   ARGMESH_ASSIGN_OR_RETURN(ResolvedQuery resolved,
-                           Resolve(query, gallery.settings, stop));
+                           ResolveFor(query, stop, searched));
+  const GallerySnapshot& gallery = *searched.gallery;
   ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, resolved.graph.graph));
   clock.Lap("query");
   answer.stats.generation = gallery.generation;
@@ -232,20 +250,38 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   return answer;
 }
 
-absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
-    const CompareQuery& query, const StopToken& stop) const {
-  ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord collection,
-                           catalog_.GetCollection(query.collection));
+absl::StatusOr<std::pair<ResolvedQuery, ResolvedQuery>>
+ShapeSearch::ResolveBoth(const CompareQuery& query,
+                         const StopToken& stop) const {
   // A part is compared by the graphs: where it lies is a search's matter.
   const QueryNeeds needs = {.signature =
                                 NeedsOf(query.mode, query.ranking).signature};
-  ARGMESH_ASSIGN_OR_RETURN(
-      ResolvedQuery a,
-      resolver_.Resolve(query.a, collection.settings, needs, stop));
-  ARGMESH_ASSIGN_OR_RETURN(
-      ResolvedQuery b,
-      resolver_.Resolve(query.b, collection.settings, needs, stop));
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRecord collection,
+                           catalog_.GetCollection(query.collection));
+  while (true) {
+    absl::StatusOr<ResolvedQuery> a =
+        resolver_.Resolve(query.a, collection.settings, needs, stop);
+    absl::Status status = a.status();
+    if (status.ok()) {
+      absl::StatusOr<ResolvedQuery> b =
+          resolver_.Resolve(query.b, collection.settings, needs, stop);
+      if (b.ok()) return std::make_pair(*std::move(a), *std::move(b));
+      status = b.status();
+    }
+    if (ReasonOf(status) != ErrorReason::kGraphVersionMismatch) return status;
+    // Once more when the collection was switched to other settings meanwhile.
+    const int64_t before = collection.revision;
+    ARGMESH_ASSIGN_OR_RETURN(collection,
+                             catalog_.GetCollection(query.collection));
+    if (collection.revision == before) return status;
+  }
+}
+
+absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
+    const CompareQuery& query, const StopToken& stop) const {
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
+  ARGMESH_ASSIGN_OR_RETURN(auto resolved, ResolveBoth(query, stop));
+  auto& [a, b] = resolved;
   ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, a.graph.graph));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   ComparedShapes compared;

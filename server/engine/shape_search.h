@@ -43,6 +43,13 @@ class ShapeSearch {
   absl::StatusOr<ResolvedQuery> Resolve(const SearchQuery& query,
                                         const CollectionSettings& settings,
                                         const StopToken& stop) const;
+  // As Resolve; `searched` is selected again when the collection was switched
+  // to other settings between it and the query's graph.
+  absl::StatusOr<ResolvedQuery> ResolveFor(const SearchQuery& query,
+                                           const StopToken& stop,
+                                           SearchedShapes& searched) const;
+  absl::StatusOr<std::pair<ResolvedQuery, ResolvedQuery>> ResolveBoth(
+      const CompareQuery& query, const StopToken& stop) const;
   absl::Status SearchGraphs(const SearchQuery& query,
                             const ResolvedQuery& resolved,
                             const SearchedShapes& searched,

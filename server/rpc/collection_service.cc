@@ -1,5 +1,6 @@
 #include "server/rpc/collection_service.h"
 
+#include <optional>
 #include <utility>
 
 #include "core/base/status_macros.h"
@@ -88,17 +89,20 @@ absl::Status ReindexCollection(const UnaryCall& call,
                                google::longrunning::Operation* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                            ParseCollectionName("name", request.name()));
-  if (request.has_settings()) {
-    return FieldInvalid("settings", "not served by this version; leave it out");
-  }
   Engine& engine = call.environment.engine;
-  ARGMESH_RETURN_IF_ERROR(engine.CheckReindex(id).status());
-  const auto work =
-      [&engine,
-       id](const RunControl& control) -> absl::StatusOr<google::protobuf::Any> {
-    ARGMESH_ASSIGN_OR_RETURN(const RunReport report,
-                             engine.Reindex(id, control));
-    return Packed(ReindexAnswer(id, report));
+  std::optional<CollectionSettings> settings;
+  if (request.has_settings()) {
+    ARGMESH_ASSIGN_OR_RETURN(const CollectionRecord present,
+                             engine.GetCollection(id));
+    ARGMESH_ASSIGN_OR_RETURN(
+        settings, FromProto("settings", request.settings(), present.settings));
+  }
+  ARGMESH_RETURN_IF_ERROR(engine.CheckReindex(id, settings));
+  const auto work = [&engine, id, settings](const RunControl& control)
+      -> absl::StatusOr<google::protobuf::Any> {
+    ARGMESH_ASSIGN_OR_RETURN(const ReindexReport report,
+                             engine.Reindex(id, settings, control));
+    return Packed(ReindexAnswer(report));
   };
   ARGMESH_ASSIGN_OR_RETURN(*response, call.environment.operations.Start(
                                           kReindex, request.name(), work));

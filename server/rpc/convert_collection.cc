@@ -12,10 +12,11 @@ namespace argmesh {
 namespace {
 
 absl::StatusOr<DecompositionKind> KindFromProto(std::string_view field,
-                                                v1::DecompositionKind kind) {
+                                                v1::DecompositionKind kind,
+                                                DecompositionKind unset) {
   switch (kind) {
     case v1::DECOMPOSITION_KIND_UNSPECIFIED:
-      return CollectionSettings().decomposition;
+      return unset;
     case v1::DECOMPOSITION_KIND_BIHARMONIC:
       return DecompositionKind::kBiharmonic;
     case v1::DECOMPOSITION_KIND_NORMAL_CURVATURE:
@@ -32,11 +33,13 @@ absl::StatusOr<DecompositionKind> KindFromProto(std::string_view field,
 }  // namespace
 
 absl::StatusOr<CollectionSettings> FromProto(
-    std::string_view field, const v1::CollectionSettings& settings) {
-  CollectionSettings out;
-  ARGMESH_ASSIGN_OR_RETURN(out.decomposition,
-                           KindFromProto(std::string(field) + ".decomposition",
-                                         settings.decomposition()));
+    std::string_view field, const v1::CollectionSettings& settings,
+    const CollectionSettings& unset) {
+  CollectionSettings out = unset;
+  ARGMESH_ASSIGN_OR_RETURN(
+      out.decomposition,
+      KindFromProto(std::string(field) + ".decomposition",
+                    settings.decomposition(), unset.decomposition));
   if (settings.vertex_budget() != 0) {
     out.vertex_budget = settings.vertex_budget();
   }

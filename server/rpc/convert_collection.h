@@ -11,9 +11,10 @@
 
 namespace argmesh {
 
-// Fills defaults in. FIELD_INVALID with a field below `field`.
+// What is not set is that of `unset`. FIELD_INVALID with a field below `field`.
 absl::StatusOr<CollectionSettings> FromProto(
-    std::string_view field, const v1::CollectionSettings& settings);
+    std::string_view field, const v1::CollectionSettings& settings,
+    const CollectionSettings& unset = {});
 
 // FIELD_INVALID for a type that is none.
 absl::StatusOr<std::vector<MetadataKey>> FromProto(

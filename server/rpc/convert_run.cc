@@ -1,18 +1,19 @@
 #include "server/rpc/convert_run.h"
 
+#include "server/rpc/convert_collection.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
 
 namespace argmesh {
 
-v1::ReindexCollectionResponse ReindexAnswer(std::string_view collection,
-                                            const RunReport& report) {
+v1::ReindexCollectionResponse ReindexAnswer(const ReindexReport& report) {
   v1::ReindexCollectionResponse out;
-  out.set_reindexed(report.done);
-  out.set_failed(report.failed);
-  for (const ItemFailure& failure : report.failures) {
+  out.set_reindexed(report.run.done);
+  out.set_failed(report.run.failed);
+  *out.mutable_collection() = ToProto(report.collection);
+  for (const ItemFailure& failure : report.run.failures) {
     v1::ReindexFailure& added = *out.add_failures();
-    added.set_shape(ShapeName(collection, failure.item));
+    added.set_shape(ShapeName(report.collection.id, failure.item));
     *added.mutable_error() = ToProtoStatus(failure.status);
   }
   return out;

@@ -3,17 +3,14 @@
 #ifndef ARGMESH_SERVER_RPC_CONVERT_RUN_H_
 #define ARGMESH_SERVER_RPC_CONVERT_RUN_H_
 
-#include <string_view>
-
 #include "argmesh/v1/collection_service.pb.h"
 #include "argmesh/v1/ingest_service.pb.h"
 #include "server/engine/item_run.h"
+#include "server/engine/reindex_report.h"
 
 namespace argmesh {
 
-// Items are ids of shapes of `collection`.
-v1::ReindexCollectionResponse ReindexAnswer(std::string_view collection,
-                                            const RunReport& report);
+v1::ReindexCollectionResponse ReindexAnswer(const ReindexReport& report);
 // Items are paths of files.
 v1::ImportShapesResponse ImportAnswer(const RunReport& report);
 

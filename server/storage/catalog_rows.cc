@@ -95,6 +95,30 @@ absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
   return ReadCollectionRow(statement);
 }
 
+absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
+                                                std::string_view id,
+                                                std::string_view uid) {
+  ARGMESH_ASSIGN_OR_RETURN(CollectionRow row,
+                           FindCollectionRow(connection, id));
+  if (row.record.uid != uid) return CollectionNotFoundError(id);
+  return row;
+}
+
+absl::StatusOr<std::optional<ShapeRow>> FindShapeRow(
+    SqliteConnection& connection, int64_t collection, std::string_view id) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      SqliteStatement statement,
+      connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
+                       " FROM shape s JOIN collection c "
+                       "ON c.id = s.collection_id "
+                       "WHERE s.collection_id = ? AND s.name = ?",
+                       collection, id));
+  ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
+  if (!row) return std::nullopt;
+  ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
+  return shape;
+}
+
 absl::StatusOr<std::map<std::string, std::string>> ParseMetadata(
     const std::string& text) {
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);

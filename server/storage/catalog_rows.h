@@ -32,10 +32,11 @@ struct ShapeRow {
   "c.id, c.name, c.uid, c.display_name, c.settings, c.graph_version, "  \
   "c.generation, c.shape_count, c.revision, c.create_us, c.update_us, " \
   "c.metadata_keys"
-#define ARGMESH_SHAPE_COLUMNS                                               \
+#define ARGMESH_SHAPE_COLUMNS_WITH(details)                                 \
   "s.id, c.name, s.name, s.uid, s.state, s.error, s.sha256, s.size_bytes, " \
   "s.format, s.mesh_sha256 IS NOT NULL, s.display_name, s.source_uri, "     \
-  "s.metadata, s.details, s.generation, s.create_us, s.update_us"
+  "s.metadata, " details ", s.generation, s.create_us, s.update_us"
+#define ARGMESH_SHAPE_COLUMNS ARGMESH_SHAPE_COLUMNS_WITH("s.details")
 inline constexpr int kShapeColumns = 17;
 
 // STORED_DATA_DAMAGED.
@@ -45,6 +46,13 @@ absl::StatusOr<ShapeRow> ReadShapeRow(const SqliteStatement& row);
 // kCollectionNotFound.
 absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
                                                 std::string_view id);
+// Also when another collection took the id of the one with `uid`.
+absl::StatusOr<CollectionRow> FindCollectionRow(SqliteConnection& connection,
+                                                std::string_view id,
+                                                std::string_view uid);
+// None: the collection has no such shape.
+absl::StatusOr<std::optional<ShapeRow>> FindShapeRow(
+    SqliteConnection& connection, int64_t collection, std::string_view id);
 // Metadata as its column has it.
 absl::StatusOr<std::map<std::string, std::string>> ParseMetadata(
     const std::string& text);

@@ -123,7 +123,70 @@ CREATE TABLE metadata_value (
 CREATE INDEX metadata_value_by_shape ON metadata_value(shape_id);
 )sql";
 
-constexpr const char* kMigrations[] = {kVersion1, kVersion2, kVersion3};
+// A shape may have a second graph, of other settings, until its collection is
+// switched to them; `graph_id` says which one counts. Ids are never used again:
+// what nothing refers to any more may be removed by its id, later.
+constexpr char kVersion4[] = R"sql(
+ALTER TABLE graph RENAME TO graph_3;
+ALTER TABLE face_label RENAME TO face_label_3;
+ALTER TABLE change_log RENAME TO change_log_3;
+
+CREATE TABLE graph (
+  id                INTEGER PRIMARY KEY AUTOINCREMENT,
+  shape_id          INTEGER NOT NULL REFERENCES shape(id) ON DELETE CASCADE,
+  algorithm_version INTEGER NOT NULL,
+  arg               BLOB    NOT NULL,
+  crc32c            INTEGER NOT NULL
+) STRICT;
+INSERT INTO graph (id, shape_id, algorithm_version, arg, crc32c)
+  SELECT shape_id, shape_id, algorithm_version, arg, crc32c FROM graph_3;
+CREATE INDEX graph_by_shape ON graph(shape_id);
+
+CREATE TABLE face_label (
+  graph_id       INTEGER PRIMARY KEY REFERENCES graph(id) ON DELETE CASCADE,
+  raw_bytes      INTEGER NOT NULL CHECK (raw_bytes >= 0),
+  labels         BLOB    NOT NULL,
+  crc32c         INTEGER NOT NULL
+) STRICT;
+INSERT INTO face_label (graph_id, raw_bytes, labels, crc32c)
+  SELECT shape_id, raw_bytes, labels, crc32c FROM face_label_3
+  WHERE shape_id IN (SELECT id FROM graph);
+
+ALTER TABLE shape ADD COLUMN graph_id INTEGER;
+UPDATE shape SET graph_id = id;
+
+CREATE TABLE change_log (
+  collection_id  INTEGER NOT NULL REFERENCES collection(id) ON DELETE CASCADE,
+  generation     INTEGER NOT NULL,
+  name           TEXT    NOT NULL,
+  kind           INTEGER NOT NULL CHECK (kind IN (1, 2, 3)),
+  PRIMARY KEY (collection_id, generation)
+) STRICT, WITHOUT ROWID;
+INSERT INTO change_log SELECT collection_id, generation, name, kind
+  FROM change_log_3;
+
+DROP TABLE graph_3;
+DROP TABLE face_label_3;
+DROP TABLE change_log_3;
+
+CREATE TABLE stage (
+  collection_id  INTEGER PRIMARY KEY REFERENCES collection(id)
+                 ON DELETE CASCADE,
+  settings       BLOB    NOT NULL,
+  graph_version  INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE staged_shape (
+  shape_id       INTEGER PRIMARY KEY REFERENCES shape(id) ON DELETE CASCADE,
+  sha256         BLOB    NOT NULL CHECK (length(sha256) = 32),
+  graph_id       INTEGER NOT NULL REFERENCES graph(id) ON DELETE CASCADE,
+  details        BLOB    NOT NULL
+) STRICT;
+CREATE INDEX staged_shape_by_graph ON staged_shape(graph_id);
+)sql";
+
+constexpr const char* kMigrations[] = {kVersion1, kVersion2, kVersion3,
+                                       kVersion4};
 
 // A copy of the database as it is before the first step.
 absl::Status CopyBefore(SqliteConnection& connection,

@@ -72,6 +72,20 @@ class SqliteCatalog : public Catalog {
       std::string_view collection_uid, int64_t after_generation,
       int limit) const override;
 
+  absl::Status BeginStage(std::string_view collection,
+                          std::string_view collection_uid,
+                          const SettingsStage& stage) override;
+  absl::Status StageShape(const ShapeStaging& staging) override;
+  absl::StatusOr<std::vector<std::string>> ListUnstaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<std::vector<ScannedGraph>> ScanStaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<std::optional<CollectionRecord>> SwitchSettings(
+      const SettingsSwitch& change) override;
+  absl::Status RemoveUnusedGraphs(const StopToken& stop) override;
+
   absl::StatusOr<bool> IsMeshReferenced(
       const Sha256Digest& sha256) const override;
   absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
@@ -86,6 +100,11 @@ class SqliteCatalog : public Catalog {
   SqliteCatalog(std::shared_ptr<DataDirectory> directory,
                 std::unique_ptr<SqliteConnection> connection,
                 const SqliteCatalogOptions& options);
+
+  // Rows of `sql`, which takes the three.
+  absl::StatusOr<std::vector<ScannedGraph>> Scan(
+      std::string_view sql, std::string_view collection_uid,
+      std::string_view after_id, int limit) const;
 
   const std::shared_ptr<DataDirectory> directory_;
   SqliteWriter writer_;

@@ -16,13 +16,15 @@ namespace argmesh {
 namespace {
 
 // After the shape's columns: its graph and what else the index needs.
-#define ARGMESH_GRAPH_COLUMNS                \
+#define ARGMESH_GRAPH_COLUMNS_WITH(settings) \
   ", g.algorithm_version, g.arg, g.crc32c, " \
-  "z.bytes, z.crc32c, w.words, w.words_crc32c "
-#define ARGMESH_GRAPH_JOINS                     \
-  "LEFT JOIN graph g ON g.shape_id = s.id "     \
+  "z.bytes, z.crc32c, w.words, w.words_crc32c, " settings " "
+#define ARGMESH_GRAPH_COLUMNS ARGMESH_GRAPH_COLUMNS_WITH("c.settings")
+#define ARGMESH_SURFACE_JOINS                   \
   "LEFT JOIN signature z ON z.shape_id = s.id " \
   "LEFT JOIN surface_windows w ON w.shape_id = s.id "
+#define ARGMESH_GRAPH_JOINS \
+  "LEFT JOIN graph g ON g.id = s.graph_id " ARGMESH_SURFACE_JOINS
 
 // A blob and its checksum in the next column.
 absl::StatusOr<std::string> CheckedBlob(const SqliteStatement& row, int column,
@@ -45,6 +47,13 @@ absl::Status ReadGraphColumns(const SqliteStatement& row,
                               ScannedGraph& scanned) {
   const ShapeRecord& record = scanned.record;
   constexpr int kGraph = kShapeColumns + 1;
+  const absl::StatusOr<CollectionSettings> settings =
+      ParseCollectionSettings(row.Blob(kGraph + 6));
+  if (!settings.ok()) {
+    return DamagedRow(record.collection, "",
+                      std::string(settings.status().message()));
+  }
+  scanned.settings = *settings;
   if (row.IsNull(kGraph)) {
     return DamagedRow(record.collection, record.id, "its graph is missing");
   }
@@ -78,8 +87,9 @@ absl::Status ReadLabels(SqliteConnection& connection, int64_t shape,
                         StoredGraph& stored) {
   ARGMESH_ASSIGN_OR_RETURN(
       SqliteStatement row,
-      connection.Query("SELECT raw_bytes, labels, crc32c FROM face_label "
-                       "WHERE shape_id = ?",
+      connection.Query("SELECT l.raw_bytes, l.labels, l.crc32c FROM shape s "
+                       "JOIN face_label l ON l.graph_id = s.graph_id "
+                       "WHERE s.id = ?",
                        shape));
   ARGMESH_ASSIGN_OR_RETURN(const bool found, row.Step());
   const ShapeRecord& record = stored.record;
@@ -115,6 +125,7 @@ absl::Status ReadStoredGraph(SqliteConnection& connection,
   ScannedGraph scanned = ReadScannedRow(row);
   ARGMESH_RETURN_IF_ERROR(scanned.status);
   stored.record = std::move(scanned.record);
+  stored.settings = scanned.settings;
   stored.graph_version = scanned.graph_version;
   stored.graph = std::move(scanned.graph);
   stored.signature = std::move(scanned.signature);
@@ -125,6 +136,15 @@ constexpr char kScan[] =
     "SELECT " ARGMESH_SHAPE_COLUMNS ARGMESH_GRAPH_COLUMNS
     "FROM collection c JOIN shape s ON s.collection_id = "
     "c.id " ARGMESH_GRAPH_JOINS
+    "WHERE c.uid = ? AND s.name > ? ORDER BY s.name LIMIT ?";
+// What is put aside, in place of what the shapes have.
+constexpr char kScanStaged[] =
+    "SELECT " ARGMESH_SHAPE_COLUMNS_WITH("t.details")
+        ARGMESH_GRAPH_COLUMNS_WITH("e.settings")
+    "FROM collection c JOIN stage e ON e.collection_id = c.id "
+    "JOIN shape s ON s.collection_id = c.id "
+    "JOIN staged_shape t ON t.shape_id = s.id AND t.sha256 = s.sha256 "
+    "JOIN graph g ON g.id = t.graph_id " ARGMESH_SURFACE_JOINS
     "WHERE c.uid = ? AND s.name > ? ORDER BY s.name LIMIT ?";
 constexpr char kFind[] =
     "SELECT " ARGMESH_SHAPE_COLUMNS ARGMESH_GRAPH_COLUMNS
@@ -198,15 +218,15 @@ absl::StatusOr<StoredGraph> SqliteCatalog::ReadGraph(
   return stored;
 }
 
-absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::ScanGraphs(
-    std::string_view collection_uid, std::string_view after_id,
-    int limit) const {
+absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::Scan(
+    std::string_view sql, std::string_view collection_uid,
+    std::string_view after_id, int limit) const {
   std::vector<ScannedGraph> scanned;
   ARGMESH_RETURN_IF_ERROR(
       readers_.Read([&](SqliteConnection& connection) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(
             SqliteStatement statement,
-            connection.Query(kScan, collection_uid, after_id, limit));
+            connection.Query(sql, collection_uid, after_id, limit));
         while (true) {
           ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
           if (!row) return absl::OkStatus();
@@ -214,6 +234,18 @@ absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::ScanGraphs(
         }
       }));
   return scanned;
+}
+
+absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::ScanGraphs(
+    std::string_view collection_uid, std::string_view after_id,
+    int limit) const {
+  return Scan(kScan, collection_uid, after_id, limit);
+}
+
+absl::StatusOr<std::vector<ScannedGraph>> SqliteCatalog::ScanStaged(
+    std::string_view collection_uid, std::string_view after_id,
+    int limit) const {
+  return Scan(kScanStaged, collection_uid, after_id, limit);
 }
 
 absl::StatusOr<ScannedGraph> SqliteCatalog::FindGraph(

@@ -6,10 +6,13 @@
 #include "server/engine/catalog_errors.h"
 #include "server/engine/record_codec.h"
 #include "server/storage/catalog_rows.h"
+#include "server/storage/change_log.h"
+#include "server/storage/graph_rows.h"
 #include "server/storage/label_compression.h"
 #include "server/storage/metadata_values.h"
 #include "server/storage/request_memory.h"
 #include "server/storage/sqlite_catalog.h"
+#include "server/storage/staged_rows.h"
 #include "server/storage/unreferenced_mesh.h"
 
 namespace argmesh {
@@ -22,45 +25,14 @@ struct PutBytes {
   std::string labels;  // compressed
   std::string details;
   std::string metadata;
+  StagedBytes staged;
+
+  int64_t size() const {
+    return static_cast<int64_t>(labels.size() + details.size() +
+                                metadata.size() + staged.labels.size() +
+                                staged.details.size());
+  }
 };
-
-absl::StatusOr<std::optional<ShapeRow>> FindShapeRow(
-    SqliteConnection& connection, int64_t collection, std::string_view id) {
-  ARGMESH_ASSIGN_OR_RETURN(
-      SqliteStatement statement,
-      connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
-                       " FROM shape s JOIN collection c "
-                       "ON c.id = s.collection_id "
-                       "WHERE s.collection_id = ? AND s.name = ?",
-                       collection, id));
-  ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
-  if (!row) return std::nullopt;
-  ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
-  return shape;
-}
-
-// The collection's next generation, with the change in its log.
-absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
-                                  int64_t collection, const std::string& id,
-                                  ShapeChange::Kind kind, int added) {
-  ARGMESH_RETURN_IF_ERROR(
-      connection
-          .Run("UPDATE collection SET generation = generation + 1, "
-               "shape_count = shape_count + ? WHERE id = ?",
-               added, collection)
-          .status());
-  ARGMESH_ASSIGN_OR_RETURN(
-      const int64_t generation,
-      connection.QueryInt("SELECT generation FROM collection WHERE id = ?",
-                          collection));
-  ARGMESH_RETURN_IF_ERROR(
-      connection
-          .Run("INSERT INTO change_log (collection_id, generation, name, kind) "
-               "VALUES (?, ?, ?, ?)",
-               collection, generation, id, static_cast<int>(kind))
-          .status());
-  return generation;
-}
 
 absl::StatusOr<int64_t> WriteShapeRow(SqliteConnection& connection,
                                       int64_t collection,
@@ -101,22 +73,35 @@ absl::StatusOr<int64_t> WriteShapeRow(SqliteConnection& connection,
   return replaced ? replaced->number : connection.last_insert_id();
 }
 
+// In place of the graph that a replaced shape had.
 absl::Status WriteGraph(SqliteConnection& connection, int64_t shape,
                         const ShapePut& put, const PutBytes& bytes) {
-  ARGMESH_RETURN_IF_ERROR(
-      connection
-          .Run("INSERT OR REPLACE INTO graph (shape_id, algorithm_version, "
-               "arg, crc32c) VALUES (?, ?, ?, ?)",
-               shape, put.graph_version, SqliteBlob(put.graph),
-               ComputeCrc32c(put.graph))
-          .status());
+  ARGMESH_RETURN_IF_ERROR(connection
+                              .Run("DELETE FROM graph WHERE id = "
+                                   "(SELECT graph_id FROM shape WHERE id = ?)",
+                                   shape)
+                              .status());
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t graph,
+      InsertGraph(connection, shape,
+                  {.version = put.graph_version,
+                   .graph = put.graph,
+                   .labels = bytes.labels,
+                   .label_bytes = static_cast<int64_t>(put.labels.size())}));
   return connection
-      .Run(
-          "INSERT OR REPLACE INTO face_label (shape_id, raw_bytes, labels, "
-          "crc32c) VALUES (?, ?, ?, ?)",
-          shape, static_cast<int64_t>(put.labels.size()),
-          SqliteBlob(bytes.labels), ComputeCrc32c(bytes.labels))
+      .Run("UPDATE shape SET graph_id = ? WHERE id = ?", graph, shape)
       .status();
+}
+
+// When the collection is at the stage it was made for.
+absl::Status PutAside(SqliteConnection& connection, int64_t collection,
+                      int64_t shape, const ShapePut& put,
+                      const StagedBytes& bytes) {
+  if (!put.staged) return absl::OkStatus();
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<SettingsStage> stage,
+                           ReadStage(connection, collection));
+  if (stage != put.staged->stage) return absl::OkStatus();
+  return WriteStaged(connection, shape, put.record.sha256, *put.staged, bytes);
 }
 
 // In place of what a replaced shape had.
@@ -158,16 +143,6 @@ absl::StatusOr<std::vector<Sha256Digest>> DropMesh(SqliteConnection& connection,
   return unreferenced;
 }
 
-absl::StatusOr<CollectionRow> FindCollectionOf(SqliteConnection& connection,
-                                               const ShapePut& put) {
-  ARGMESH_ASSIGN_OR_RETURN(
-      CollectionRow row, FindCollectionRow(connection, put.record.collection));
-  if (row.record.uid != put.collection_uid) {
-    return CollectionNotFoundError(put.record.collection);
-  }
-  return row;
-}
-
 // OK and no value: the shape is to be written.
 absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
     const ShapePut& put, const std::optional<ShapeRow>& stored) {
@@ -193,14 +168,18 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
     first.written = false;
     return first;
   }
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
-                           FindCollectionOf(connection, put));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const CollectionRow collection,
+      FindCollectionRow(connection, put.record.collection, put.collection_uid));
   ARGMESH_ASSIGN_OR_RETURN(
       const std::optional<ShapeRow> stored,
       FindShapeRow(connection, collection.number, put.record.id));
   ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
                            AnswerStored(put, stored));
   if (kept) return *std::move(kept);
+  if (!MakeSameGraphs(put.settings, collection.record.settings)) {
+    return OtherSettingsError(put.record.collection);
+  }
   ARGMESH_RETURN_IF_ERROR(CheckDeclaredValues(collection.record.metadata_keys,
                                               put.record.metadata));
 
@@ -220,6 +199,8 @@ absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
       WriteMetadataValues(connection, collection, shape, put.record.metadata));
   ARGMESH_RETURN_IF_ERROR(WriteGraph(connection, shape, put, bytes));
   ARGMESH_RETURN_IF_ERROR(WriteDescriptors(connection, shape, put.descriptors));
+  ARGMESH_RETURN_IF_ERROR(
+      PutAside(connection, collection.number, shape, put, bytes.staged));
   if (stored) {
     ARGMESH_ASSIGN_OR_RETURN(written.unreferenced,
                              DropMesh(connection, stored->record));
@@ -322,12 +303,16 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
   ARGMESH_ASSIGN_OR_RETURN(bytes.labels, CompressLabels(put.labels));
   bytes.details = SerializeShapeDetails(put.record);
   bytes.metadata = SerializeMetadata(put.record.metadata);
+  if (put.staged) {
+    ARGMESH_ASSIGN_OR_RETURN(bytes.staged, MakeStagedBytes(*put.staged));
+  }
   const auto size =
-      static_cast<int64_t>(put.graph.size() + bytes.labels.size() +
+      static_cast<int64_t>(put.graph.size() +
+                           (put.staged ? put.staged->graph.size() : 0) +
                            put.descriptors.signature.size() +
                            put.descriptors.window_words.size() +
                            put.descriptors.windows.size()) +
-      kRowBytes;
+      bytes.size() + kRowBytes;
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(

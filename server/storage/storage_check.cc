@@ -43,13 +43,17 @@ struct CheckedColumn {
   const char* table;
   const char* bytes;
   const char* crc32c;
+  const char* shape;  // from table t to shape s
 };
+constexpr char kOfShape[] = "JOIN shape s ON s.id = t.shape_id";
+constexpr char kOfGraph[] =
+    "JOIN graph g ON g.id = t.graph_id JOIN shape s ON s.id = g.shape_id";
 constexpr CheckedColumn kColumns[] = {
-    {"graph", "arg", "crc32c"},
-    {"face_label", "labels", "crc32c"},
-    {"signature", "bytes", "crc32c"},
-    {"surface_windows", "words", "words_crc32c"},
-    {"surface_windows", "windows", "windows_crc32c"},
+    {"graph", "arg", "crc32c", kOfShape},
+    {"face_label", "labels", "crc32c", kOfGraph},
+    {"signature", "bytes", "crc32c", kOfShape},
+    {"surface_windows", "words", "words_crc32c", kOfShape},
+    {"surface_windows", "windows", "windows_crc32c", kOfShape},
 };
 
 void AddFinding(StorageReport& report, std::string finding) {
@@ -76,10 +80,9 @@ absl::Status CheckColumn(SqliteConnection& connection,
                          std::string_view collection, const StopToken& stop,
                          StorageReport& report) {
   const std::string sql = absl::StrFormat(
-      "SELECT c.name, s.name, t.%s, t.%s FROM %s t "
-      "JOIN shape s ON s.id = t.shape_id JOIN collection c ON "
-      "c.id = s.collection_id WHERE %s ORDER BY t.shape_id",
-      column.bytes, column.crc32c, column.table, kOfCollection);
+      "SELECT c.name, s.name, t.%s, t.%s FROM %s t %s JOIN collection c ON "
+      "c.id = s.collection_id WHERE %s ORDER BY t.rowid",
+      column.bytes, column.crc32c, column.table, column.shape, kOfCollection);
   ARGMESH_ASSIGN_OR_RETURN(SqliteStatement rows,
                            connection.Query(sql, collection));
   while (true) {
@@ -114,7 +117,7 @@ absl::Status CheckGraphsAreThere(SqliteConnection& connection,
                        "ON c.id = s.collection_id WHERE ",
                        kOfCollection,
                        " AND NOT EXISTS (SELECT 1 FROM graph g WHERE "
-                       "g.shape_id = s.id)"),
+                       "g.id = s.graph_id)"),
           collection));
   while (true) {
     ARGMESH_ASSIGN_OR_RETURN(const bool row, rows.Step());

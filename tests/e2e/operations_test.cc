@@ -21,7 +21,8 @@ class OperationsTest : public testing::Test {
         {"sample", "--out", Path("meshes"), "--shapes-per-class", "2",
          "--classes", "mug,wrench", "--vertices", "1500"});
     ASSERT_EQ(sample.exit_code, 0) << sample.err;
-    ASSERT_TRUE(installation_.StartServer({"--import-root", Path("meshes")}));
+    ASSERT_TRUE(installation_.StartServer(
+        {"--import-root", Path("meshes"), "--log-level", "debug"}));
   }
 
   std::string Path(const std::string& relative) const {
@@ -86,6 +87,62 @@ TEST_F(OperationsTest, ReindexMakesShapesOfAnotherVersionSearchable) {
   EXPECT_EQ(reindex.Json()["reindexed"], 4);
   EXPECT_EQ(reindex.Json()["failed"], 0);
   EXPECT_EQ(Unusable(), 0);
+}
+
+TEST_F(OperationsTest, ReindexIsCancelledByCtrlC) {
+  ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
+  // Far more samples than can be described before the signal comes.
+  const std::vector<std::string> words = {"reindex", "c", "--vertex-budget",
+                                          "60000"};
+  ChildProcess reindex = installation_.Start(words);
+  ASSERT_TRUE(installation_.WaitForLog("CollectionService.ReindexCollection"));
+  reindex.Signal(SIGINT);
+  EXPECT_EQ(reindex.Wait(), 130) << reindex.Err();
+  EXPECT_THAT(reindex.Err(), HasSubstr("stopping"));
+  const auto budget = [this] {
+    return installation_.Run({"list", "--json"})
+        .Json()["collections"][0]["vertex_budget"]
+        .get<int>();
+  };
+  EXPECT_EQ(budget(), 3000);
+  const CommandOutcome smaller =
+      installation_.Run({"reindex", "c", "--vertex-budget", "700"});
+  EXPECT_EQ(smaller.exit_code, 0) << smaller.err;
+  EXPECT_EQ(budget(), 700);
+}
+
+TEST_F(OperationsTest, ReindexGivesACollectionOtherSettings) {
+  ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
+  const std::string shape =
+      installation_.Run({"list", "--collection", "c", "--json"})
+          .Json()["shapes"][0]["shape"];
+  const auto levels = [&] {
+    const CommandOutcome graph =
+        installation_.Run({"graph", "--collection", "c", shape, "--json"});
+    EXPECT_EQ(graph.exit_code, 0) << graph.err;
+    return graph.Json()["levels"].dump();
+  };
+  const std::string before = levels();
+  const CommandOutcome reindex =
+      installation_.Run({"reindex", "c", "--vertex-budget", "700",
+                         "--uniform-cells", "5", "--json"});
+  ASSERT_EQ(reindex.exit_code, 0) << reindex.err;
+  EXPECT_EQ(reindex.Json()["reindexed"], 4);
+  EXPECT_EQ(reindex.Json()["failed"], 0);
+  EXPECT_EQ(reindex.Json()["decomposition"], "biharmonic");
+  EXPECT_EQ(reindex.Json()["vertex_budget"], 700);
+  EXPECT_EQ(reindex.Json()["uniform_cells"], 5);
+  EXPECT_EQ(reindex.Json()["generation"], 5);
+  EXPECT_NE(levels(), before);
+  EXPECT_EQ(Unusable(), 0);
+  const CommandOutcome again =
+      installation_.Run({"reindex", "c", "--decomposition", "voronoi"});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.out,
+              HasSubstr("voronoi, vertex budget 700, uniform cells 5"));
+  EXPECT_EQ(
+      installation_.Run({"reindex", "c", "--vertex-budget", "99"}).exit_code,
+      2);
 }
 
 }  // namespace

@@ -41,26 +41,40 @@ class ReindexTest : public ::testing::Test {
     server_.Start();
   }
 
-  grpc::Status Reindex(const std::string& collection, Operation* operation) {
+  grpc::Status Reindex(const std::string& collection, Operation* operation,
+                       const v1::CollectionSettings* settings = nullptr) {
     grpc::ClientContext context;
     v1::ReindexCollectionRequest request;
     request.set_name("collections/" + collection);
+    if (settings != nullptr) *request.mutable_settings() = *settings;
     return server_.collections().ReindexCollection(&context, request,
                                                    operation);
   }
 
-  v1::ReindexCollectionResponse ReindexToTheEnd() {
+  v1::ReindexCollectionResponse ReindexToTheEnd(
+      const v1::CollectionSettings* settings = nullptr) {
     Operation operation;
-    const grpc::Status status = Reindex("c", &operation);
+    const grpc::Status status = Reindex("c", &operation, settings);
     EXPECT_TRUE(status.ok()) << ErrorOf(status);
     done_ = WaitForOperation(server_, operation.name());
     return ResponseOf<v1::ReindexCollectionResponse>(done_);
   }
 
-  v1::SearchShapesResponse Search() {
+  v1::Collection GetCollection(const std::string& id) {
+    grpc::ClientContext context;
+    v1::GetCollectionRequest request;
+    request.set_name("collections/" + id);
+    v1::Collection collection;
+    EXPECT_TRUE(server_.collections()
+                    .GetCollection(&context, request, &collection)
+                    .ok());
+    return collection;
+  }
+
+  v1::SearchShapesResponse Search(const std::string& collection = "c") {
     grpc::ClientContext context;
     v1::SearchShapesRequest request;
-    request.set_parent("collections/c");
+    request.set_parent("collections/" + collection);
     request.mutable_mesh()->set_data(TorusOff());
     v1::SearchShapesResponse response;
     const grpc::Status status =
@@ -69,10 +83,23 @@ class ReindexTest : public ::testing::Test {
     return response;
   }
 
-  v1::Shape Get(const std::string& id) {
+  // Removes the file of a shape's mesh, which all others do without.
+  void LoseMesh(const std::string& id) {
+    const std::string sha256 = Get(id).mesh().sha256();
+    int removed = 0;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(server_.folder())) {
+      if (entry.path().string().ends_with(sha256)) {
+        removed += std::filesystem::remove(entry.path()) ? 1 : 0;
+      }
+    }
+    ASSERT_EQ(removed, 1);
+  }
+
+  v1::Shape Get(const std::string& id, const std::string& collection = "c") {
     grpc::ClientContext context;
     v1::GetShapeRequest request;
-    request.set_name("collections/c/shapes/" + id);
+    request.set_name("collections/" + collection + "/shapes/" + id);
     v1::Shape shape;
     EXPECT_TRUE(server_.shapes().GetShape(&context, request, &shape).ok());
     return shape;
@@ -138,16 +165,8 @@ TEST_F(ReindexTest, LetsTheCollectionTakeShapesAgain) {
 }
 
 TEST_F(ReindexTest, NamesTheShapeThatFailedAndDoesTheOthers) {
-  const std::string sha256 = Get("b").mesh().sha256();
+  ASSERT_NO_FATAL_FAILURE(LoseMesh("b"));
   Outdate("");
-  int removed = 0;
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(server_.folder())) {
-    if (entry.path().string().ends_with(sha256)) {
-      removed += std::filesystem::remove(entry.path()) ? 1 : 0;
-    }
-  }
-  ASSERT_EQ(removed, 1);
   const v1::ReindexCollectionResponse response = ReindexToTheEnd();
   EXPECT_EQ(response.reindexed(), 2);
   EXPECT_EQ(response.failed(), 1);
@@ -181,13 +200,128 @@ TEST_F(ReindexTest, RefusesWhatItCannotDo) {
   EXPECT_FAILS(Reindex("graphs-only", &operation), FAILED_PRECONDITION,
                "MESH_NOT_STORED");
   EXPECT_FAILS(Reindex("none", &operation), NOT_FOUND, "COLLECTION_NOT_FOUND");
+  v1::CollectionSettings settings;
+  settings.set_vertex_budget(99);
+  const grpc::Status range = Reindex("c", &operation, &settings);
+  EXPECT_FAILS(range, INVALID_ARGUMENT, "FIELD_INVALID");
+  EXPECT_EQ(ErrorOf(range).bad_field, "settings.vertex_budget");
+  settings.set_vertex_budget(500);
+  settings.set_store_meshes(false);
+  const grpc::Status meshes = Reindex("c", &operation, &settings);
+  EXPECT_FAILS(meshes, INVALID_ARGUMENT, "FIELD_INVALID");
+  EXPECT_EQ(ErrorOf(meshes).bad_field, "settings.store_meshes");
+  settings.clear_store_meshes();
+  settings.set_decomposition(v1::DECOMPOSITION_KIND_GIVEN);
+  const grpc::Status given = Reindex("c", &operation, &settings);
+  EXPECT_FAILS(given, INVALID_ARGUMENT, "FIELD_INVALID");
+  EXPECT_EQ(ErrorOf(given).bad_field, "settings.decomposition");
+}
+
+TEST_F(ReindexTest, GivesTheCollectionOtherSettingsAndKeepsThoseNotNamed) {
+  const v1::Collection before = GetCollection("c");
+  const v1::Shape shape = Get("a");
+  v1::CollectionSettings settings;
+  settings.set_decomposition(v1::DECOMPOSITION_KIND_VORONOI);
+  settings.set_uniform_cells(7);
+  const v1::ReindexCollectionResponse response = ReindexToTheEnd(&settings);
+  EXPECT_EQ(response.reindexed(), 3);
+  EXPECT_EQ(response.failed(), 0);
+  EXPECT_EQ(MetadataOf(done_).items(), 3);
+  EXPECT_EQ(MetadataOf(done_).items_done(), 3);
+  const v1::Collection after = GetCollection("c");
+  EXPECT_EQ(response.collection().SerializeAsString(),
+            after.SerializeAsString());
+  EXPECT_EQ(after.settings().decomposition(), v1::DECOMPOSITION_KIND_VORONOI);
+  EXPECT_EQ(after.settings().uniform_cells(), 7);
+  EXPECT_EQ(after.settings().vertex_budget(),
+            before.settings().vertex_budget());
+  EXPECT_TRUE(after.settings().store_meshes());
+  EXPECT_EQ(after.generation(), before.generation() + 1);
+  EXPECT_NE(after.etag(), before.etag());
+  const v1::Shape again = Get("a");
+  EXPECT_EQ(again.uid(), shape.uid());
+  EXPECT_EQ(again.generation(), after.generation());
+  EXPECT_NE(again.etag(), shape.etag());
+  EXPECT_EQ(again.metadata().at("class"), "ring");
+  EXPECT_EQ(again.create_time().seconds(), shape.create_time().seconds());
+}
+
+TEST_F(ReindexTest, FindsWhatAFreshCollectionOfTheseSettingsFinds) {
+  v1::CollectionSettings settings;
+  settings.set_vertex_budget(260);
+  ReindexToTheEnd(&settings);
   grpc::ClientContext context;
-  v1::ReindexCollectionRequest request;
-  request.set_name("collections/c");
-  request.mutable_settings()->set_vertex_budget(500);
-  EXPECT_FAILS(
-      server_.collections().ReindexCollection(&context, request, &operation),
-      INVALID_ARGUMENT, "FIELD_INVALID");
+  v1::CreateCollectionRequest request;
+  request.set_collection_id("fresh");
+  *request.mutable_collection()->mutable_settings() =
+      GetCollection("c").settings();
+  v1::Collection fresh;
+  ASSERT_CALL_OK(
+      server_.collections().CreateCollection(&context, request, &fresh));
+  server_.AddShape("fresh", "a", TorusOff(), {{"class", "ring"}});
+  server_.AddShape("fresh", "b", SphereOff());
+  server_.AddShape("fresh", "d", DumbbellOff());
+  for (const bool restarted : {false, true}) {
+    if (restarted) server_.Restart();
+    const v1::SearchShapesResponse expected = Search("fresh");
+    const v1::SearchShapesResponse found = Search();
+    EXPECT_EQ(found.stats().shapes_unusable(), 0);
+    ASSERT_EQ(found.matches_size(), 3);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_TRUE(found.matches(i).shape().name().ends_with(
+          expected.matches(i).shape().name().substr(
+              std::string("collections/fresh").size())));
+      EXPECT_EQ(found.matches(i).score(), expected.matches(i).score());
+    }
+    for (const char* id : {"a", "b", "d"}) {
+      EXPECT_EQ(Get(id).graph().SerializeAsString(),
+                Get(id, "fresh").graph().SerializeAsString());
+    }
+  }
+}
+
+TEST_F(ReindexTest, KeepsTheOldSettingsWhenAShapeFailsAndNamesIt) {
+  const v1::Collection before = GetCollection("c");
+  ASSERT_NO_FATAL_FAILURE(LoseMesh("b"));
+  v1::CollectionSettings settings;
+  settings.set_vertex_budget(260);
+  const v1::ReindexCollectionResponse response = ReindexToTheEnd(&settings);
+  EXPECT_EQ(response.reindexed(), 2);
+  ASSERT_EQ(response.failures_size(), 1);
+  EXPECT_EQ(response.failures(0).shape(), "collections/c/shapes/b");
+  EXPECT_FAILS(response.failures(0).error(), DATA_LOSS, "STORED_DATA_DAMAGED");
+  EXPECT_EQ(GetCollection("c").SerializeAsString(), before.SerializeAsString());
+  EXPECT_EQ(Search().matches_size(), 3);
+}
+
+TEST_F(ReindexTest, GoesOnWithOtherSettingsAfterACancellationAndARestart) {
+  for (int i = 0; i < 6; ++i) {
+    server_.AddShape("c", "s" + std::to_string(i), SphereOff(60 + i));
+  }
+  v1::CollectionSettings settings;
+  settings.set_vertex_budget(260);
+  Operation operation;
+  ASSERT_CALL_OK(Reindex("c", &operation, &settings));
+  CancelOperation(server_, operation.name());
+  operation = WaitForOperation(server_, operation.name());
+  EXPECT_FAILS(operation.error(), CANCELLED, "CANCELLED");
+  EXPECT_EQ(GetCollection("c").settings().vertex_budget(), 300);
+  const int64_t done = MetadataOf(operation).items_done();
+  server_.Restart();
+  EXPECT_EQ(Search().stats().shapes_unusable(), 0);
+  EXPECT_EQ(ReindexToTheEnd(&settings).reindexed(), 9 - done);
+  EXPECT_EQ(GetCollection("c").settings().vertex_budget(), 260);
+}
+
+TEST_F(ReindexTest, DescribesOutdatedShapesBeforeItSwitches) {
+  Outdate("");
+  v1::CollectionSettings settings;
+  settings.set_vertex_budget(260);
+  const v1::ReindexCollectionResponse response = ReindexToTheEnd(&settings);
+  EXPECT_EQ(response.reindexed(), 6);
+  EXPECT_EQ(MetadataOf(done_).items(), 6);
+  EXPECT_EQ(response.collection().settings().vertex_budget(), 260);
+  EXPECT_EQ(Search().stats().shapes_unusable(), 0);
 }
 
 }  // namespace

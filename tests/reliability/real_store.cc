@@ -21,6 +21,7 @@ absl::StatusOr<RealStore> RealStore::Open(const std::filesystem::path& path) {
   options.writer.truncate_checkpoint_bytes = 1'500'000;
   ARGMESH_ASSIGN_OR_RETURN(store.catalog,
                            SqliteCatalog::Open(store.directory, options));
+  ARGMESH_RETURN_IF_ERROR(store.catalog->RemoveUnusedGraphs({}));
   ARGMESH_RETURN_IF_ERROR(store.meshes
                               ->Sweep(absl::Now(),
                                       [&store](const Sha256Digest& sha256) {

@@ -75,9 +75,10 @@ StoreScript::StoreScript(std::string collection, uint64_t seed, size_t steps)
 StoreScript::Step StoreScript::Next() {
   if (!model_.GetCollection(collection_).ok()) return Insert();
   const uint64_t what = random_.Below(100);
-  if (what < 60) return Put();
-  if (what < 80) return Update();
-  if (what < 98) return DeleteShape();
+  if (what < 45) return Put();
+  if (what < 55) return Update();
+  if (what < 65) return DeleteShape();
+  if (what < 98) return Reindex();
   return DeleteCollection();
 }
 
@@ -86,6 +87,7 @@ std::string StoreScript::RandomId() {
 }
 
 StoreScript::Step StoreScript::Insert() {
+  stage_.reset();
   CollectionRecord record = SampleCollection(collection_);
   record.metadata_keys = {{"colour", MetadataType::kString}};
   return [record](Catalog& catalog, MeshStore&) {
@@ -123,6 +125,33 @@ StoreScript::Step StoreScript::DeleteShape() {
     ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
                              catalog.DeleteShape(removal));
     RemoveMeshes(deleted.unreferenced, catalog, meshes);
+    return absl::OkStatus();
+  };
+}
+
+StoreScript::Step StoreScript::Reindex() {
+  const CollectionRecord collection = *model_.GetCollection(collection_);
+  if (!stage_ || stage_->settings == collection.settings) {
+    stage_ = SampleStage(600 + static_cast<int>(random_.Below(100)));
+    return [collection, stage = *stage_](Catalog& catalog, MeshStore&) {
+      return catalog.BeginStage(collection.id, collection.uid, stage);
+    };
+  }
+  const std::vector<std::string> unstaged =
+      *model_.ListUnstaged(collection.uid, "", 1);
+  if (!unstaged.empty()) {
+    ShapeStaging staging =
+        SampleStaging(collection, unstaged[0], random_.Below(kMeshes), *stage_);
+    staging.sha256 = model_.GetShape(collection_, staging.id)->sha256;
+    return [staging](Catalog& catalog, MeshStore&) {
+      return catalog.StageShape(staging);
+    };
+  }
+  const SettingsSwitch change{collection.id, collection.uid, *stage_,
+                              absl::FromUnixSeconds(1'800'000'000)};
+  return [change](Catalog& catalog, MeshStore&) -> absl::Status {
+    ARGMESH_RETURN_IF_ERROR(catalog.SwitchSettings(change).status());
+    (void)catalog.RemoveUnusedGraphs({});
     return absl::OkStatus();
   };
 }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,15 @@ class StoreScript {
   Step Put();
   Step Update();
   Step DeleteShape();
+  // The next one on the way to other settings.
+  Step Reindex();
   Step DeleteCollection();
   std::string RandomId();
 
   const std::string collection_;
   Random random_;
   MemoryCatalog model_;
+  std::optional<SettingsStage> stage_;  // that the collection was brought to
   std::vector<Step> steps_;
   std::vector<std::string> states_;
 };

@@ -33,6 +33,16 @@ std::string Dump(const Catalog& catalog, const CollectionRecord& collection) {
   for (const ScannedGraph& graph : *graphs) {
     text += DumpGraph(catalog, collection.uid, graph);
   }
+  const auto unstaged = catalog.ListUnstaged(collection.uid, "", kAll);
+  const auto staged = catalog.ScanStaged(collection.uid, "", kAll);
+  if (!unstaged.ok() || !staged.ok()) {
+    return absl::StrCat(text, unstaged.status().ToString(),
+                        staged.status().ToString());
+  }
+  for (const std::string& id : *unstaged) absl::StrAppend(&text, id, " ");
+  for (const ScannedGraph& graph : *staged) {
+    absl::StrAppend(&text, SerializeShapeRecord(graph.record), graph.graph);
+  }
   for (const ShapeChange& change : *changes) {
     absl::StrAppend(&text, change.generation, change.id,
                     static_cast<int>(change.kind));

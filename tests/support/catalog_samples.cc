@@ -15,6 +15,10 @@ namespace {
 
 constexpr absl::Duration kRemembered = absl::Hours(1);
 
+Sha256Digest SampleMesh(uint64_t seed) {
+  return ComputeSha256(absl::StrFormat("mesh %d", seed));
+}
+
 absl::Time SampleTime() { return absl::FromUnixMicros(1'700'000'000'123'456); }
 
 WindowWords SampleWords(uint64_t seed) {
@@ -49,6 +53,7 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   const ShapeGraph graph = MakeRandomGraph(seed);
   ShapePut put;
   put.collection_uid = collection.uid;
+  put.settings = collection.settings;
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(graph);
   put.labels = SerializeFaceLabels(MakeRandomFaceLabels(seed, 300));
@@ -62,7 +67,7 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   record.display_name = "The \"" + id + "\"";
   record.source_uri = "file:///" + id + ".off";
   record.metadata = {{"colour", "blue"}, {"größe", "1 \\ 2\n"}};
-  record.sha256 = ComputeSha256(absl::StrFormat("mesh %d", seed));
+  record.sha256 = SampleMesh(seed);
   record.size_bytes = 1000 + static_cast<int64_t>(seed);
   record.format = MeshFormat::kPly;
   record.mesh_stored = true;
@@ -73,6 +78,35 @@ ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
   record.create_time = SampleTime() + absl::Seconds(seed);
   record.update_time = record.create_time;
   return put;
+}
+
+SettingsStage SampleStage(int vertex_budget) {
+  SettingsStage stage;
+  stage.settings = SampleCollection("any").settings;
+  stage.settings.vertex_budget = vertex_budget;
+  stage.graph_version = kShapeGraphVersion;
+  return stage;
+}
+
+StagedDescription SampleDescription(const SettingsStage& stage, uint64_t seed) {
+  const auto budget = static_cast<uint64_t>(stage.settings.vertex_budget);
+  const uint64_t other = 1000 * budget + seed;
+  const ShapeGraph graph = MakeRandomGraph(other);
+  StagedDescription description;
+  description.stage = stage;
+  description.report.faces = 300;
+  description.report.area = static_cast<double>(budget);
+  description.summary = SummarizeGraph(graph);
+  description.graph = SerializeShapeGraph(graph);
+  description.labels = SerializeFaceLabels(MakeRandomFaceLabels(other, 300));
+  return description;
+}
+
+ShapeStaging SampleStaging(const CollectionRecord& collection,
+                           const std::string& id, uint64_t seed,
+                           const SettingsStage& stage) {
+  return {collection.id, collection.uid, id, SampleMesh(seed),
+          SampleDescription(stage, seed)};
 }
 
 ShapeSignature SampleSignature(uint64_t seed) {

@@ -17,6 +17,15 @@ CollectionRecord SampleCollection(const std::string& id);
 ShapePut SamplePut(const CollectionRecord& collection, const std::string& id,
                    uint64_t seed);
 
+// The next settings that a collection like SampleCollection's may get.
+SettingsStage SampleStage(int vertex_budget);
+// Of the mesh `seed`; its graph is not that of SamplePut.
+StagedDescription SampleDescription(const SettingsStage& stage, uint64_t seed);
+// Puts that aside for the shape of SamplePut(collection, id, seed).
+ShapeStaging SampleStaging(const CollectionRecord& collection,
+                           const std::string& id, uint64_t seed,
+                           const SettingsStage& stage);
+
 // Equal seeds give equal signatures, most others orthogonal ones.
 ShapeSignature SampleSignature(uint64_t seed);
 

@@ -45,6 +45,13 @@ absl::StatusOr<const MemoryCatalog::Collection*> MemoryCatalog::Find(
   return &it->second;
 }
 
+absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
+    std::string_view id, std::string_view uid) {
+  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(id));
+  if (collection->record.uid != uid) return CollectionNotFoundError(id);
+  return collection;
+}
+
 const MemoryCatalog::Collection* MemoryCatalog::FindUid(
     std::string_view uid) const {
   for (const auto& [id, collection] : collections_) {
@@ -97,9 +104,11 @@ std::vector<Sha256Digest> MemoryCatalog::Unreferenced(
   return {gone.sha256};
 }
 
-ScannedGraph MemoryCatalog::Scan(const Shape& shape) {
+ScannedGraph MemoryCatalog::Scan(const Collection& collection,
+                                 const Shape& shape) {
   ScannedGraph scanned;
   scanned.record = shape.record;
+  scanned.settings = collection.record.settings;
   scanned.graph_version = shape.graph_version;
   if (shape.damaged) {
     scanned.status =
@@ -195,7 +204,22 @@ void MemoryCatalog::FailNextPut(absl::Status error) {
   next_put_ = std::move(error);
 }
 
+void MemoryCatalog::BeforeNextPut(std::function<void()> act) {
+  const std::lock_guard lock(mutex_);
+  before_put_ = std::move(act);
+}
+
+void MemoryCatalog::RunOnce(std::function<void()>& act) const {
+  std::function<void()> taken;
+  {
+    const std::lock_guard lock(mutex_);
+    taken = std::exchange(act, nullptr);
+  }
+  if (taken) taken();
+}
+
 absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
+  RunOnce(before_put_);
   const std::lock_guard lock(mutex_);
   if (closed_) return CatalogClosedError();
   ARGMESH_RETURN_IF_ERROR(std::exchange(next_put_, absl::OkStatus()));
@@ -207,16 +231,16 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
     return first;
   }
   ARGMESH_ASSIGN_OR_RETURN(Collection * collection,
-                           Find(put.record.collection));
-  if (collection->record.uid != put.collection_uid) {
-    return CollectionNotFoundError(put.record.collection);
-  }
+                           Find(put.record.collection, put.collection_uid));
   const auto it = collection->shapes.find(put.record.id);
   std::optional<ShapeRecord> replaced;
   if (it != collection->shapes.end()) replaced = it->second.record;
   ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeWritten> kept,
                            AnswerStored(put, replaced));
   if (kept) return *std::move(kept);
+  if (!MakeSameGraphs(put.settings, collection->record.settings)) {
+    return OtherSettingsError(put.record.collection);
+  }
   ARGMESH_RETURN_IF_ERROR(CheckDeclaredValues(collection->record.metadata_keys,
                                               put.record.metadata));
   ShapeWritten written{put.record, put.collection_uid, true, {}};
@@ -227,9 +251,13 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   collection->record.shape_count += replaced ? 0 : 1;
   written.record.generation =
       LogChange(*collection, put.record.id, ShapeChange::Kind::kPut);
-  collection->shapes[put.record.id] = {written.record,  put.graph_version,
-                                       put.graph,       put.labels,
-                                       put.descriptors, false};
+  std::optional<Staged>& staged = collection->shapes[put.record.id].staged;
+  if (put.staged && collection->stage == put.staged->stage) {
+    staged = Staged{put.record.sha256, *put.staged};
+  }
+  collection->shapes[put.record.id] = {
+      written.record, put.graph_version, put.graph, put.labels, put.descriptors,
+      false,          std::move(staged)};
   if (replaced) written.unreferenced = Unreferenced(*replaced);
   Remember(put.request, SerializeShapeWritten(written));
   return written;

@@ -6,6 +6,7 @@
 #ifndef ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
 #define ARGMESH_TESTS_SUPPORT_MEMORY_CATALOG_H_
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -53,6 +54,19 @@ class MemoryCatalog : public Catalog {
   absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,
       int limit) const override;
+  absl::Status BeginStage(std::string_view collection,
+                          std::string_view collection_uid,
+                          const SettingsStage& stage) override;
+  absl::Status StageShape(const ShapeStaging& staging) override;
+  absl::StatusOr<std::vector<std::string>> ListUnstaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<std::vector<ScannedGraph>> ScanStaged(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override;
+  absl::StatusOr<std::optional<CollectionRecord>> SwitchSettings(
+      const SettingsSwitch& change) override;
+  absl::Status RemoveUnusedGraphs(const StopToken& stop) override;
   absl::StatusOr<bool> IsMeshReferenced(
       const Sha256Digest& sha256) const override;
   absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(
@@ -62,10 +76,17 @@ class MemoryCatalog : public Catalog {
 
   // The next PutShape answers `error` and changes nothing.
   void FailNextPut(absl::Status error);
+  // Runs `act` once, before the next call of that name does anything.
+  void BeforeNextPut(std::function<void()> act);
+  void BeforeNextReadGraph(std::function<void()> act);
   // Makes the stored graph unreadable.
   void DamageGraph(std::string_view collection, std::string_view id);
 
  private:
+  struct Staged {
+    Sha256Digest sha256{};
+    StagedDescription description;
+  };
   struct Shape {
     ShapeRecord record;
     uint32_t graph_version = 0;
@@ -73,9 +94,18 @@ class MemoryCatalog : public Catalog {
     std::string labels;
     SurfaceDescriptors descriptors;
     bool damaged = false;
+    std::optional<Staged> staged;
+
+    // What is put aside is of the present mesh.
+    bool IsStaged() const {
+      return staged.has_value() && staged->sha256 == record.sha256;
+    }
+    // What is put aside is what the shape is from now on.
+    void TakeStaged();
   };
   struct Collection {
     CollectionRecord record;
+    std::optional<SettingsStage> stage;
     std::map<std::string, Shape, std::less<>> shapes;
     std::vector<ShapeChange> changes;
   };
@@ -86,6 +116,12 @@ class MemoryCatalog : public Catalog {
 
   absl::StatusOr<Collection*> Find(std::string_view id);
   absl::StatusOr<const Collection*> Find(std::string_view id) const;
+  // The collection, which is still that with `uid`.
+  absl::StatusOr<Collection*> Find(std::string_view id, std::string_view uid);
+  // The same, at this stage.
+  absl::StatusOr<Collection*> FindAtStage(std::string_view id,
+                                          std::string_view uid,
+                                          const SettingsStage& stage);
   const Collection* FindUid(std::string_view uid) const;
   absl::StatusOr<std::optional<std::string>> Recall(
       const RequestStamp& request) const;
@@ -94,15 +130,19 @@ class MemoryCatalog : public Catalog {
                     ShapeChange::Kind kind);
   // The shape, which is there, is so no more.
   ShapeDeleted Erase(Collection& collection, const std::string& id);
+  // Calls what is there, without the lock, and leaves nothing there.
+  void RunOnce(std::function<void()>& act) const;
   bool IsReferenced(const Sha256Digest& sha256) const;
   std::vector<Sha256Digest> Unreferenced(const ShapeRecord& gone) const;
-  static ScannedGraph Scan(const Shape& shape);
+  static ScannedGraph Scan(const Collection& collection, const Shape& shape);
 
   mutable std::mutex mutex_;
   bool closed_ = false;
   std::map<std::string, Collection, std::less<>> collections_;
   std::map<std::pair<std::string, std::string>, Answer> answers_;
   absl::Status next_put_;
+  std::function<void()> before_put_;
+  mutable std::function<void()> before_read_graph_;
 };
 
 }  // namespace argmesh

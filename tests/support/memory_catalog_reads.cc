@@ -40,16 +40,23 @@ void MemoryCatalog::DamageGraph(std::string_view collection,
   collections_.find(collection)->second.shapes.find(id)->second.damaged = true;
 }
 
+void MemoryCatalog::BeforeNextReadGraph(std::function<void()> act) {
+  const std::lock_guard lock(mutex_);
+  before_read_graph_ = std::move(act);
+}
+
 absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
     std::string_view collection, std::string_view id, bool with_labels) const {
+  RunOnce(before_read_graph_);
   const std::lock_guard lock(mutex_);
   ARGMESH_ASSIGN_OR_RETURN(const Collection* found, Find(collection));
   const auto it = found->shapes.find(id);
   if (it == found->shapes.end()) return ShapeNotFoundError(collection, id);
-  const ScannedGraph scanned = Scan(it->second);
+  const ScannedGraph scanned = Scan(*found, it->second);
   ARGMESH_RETURN_IF_ERROR(scanned.status);
-  return StoredGraph{scanned.record, scanned.graph_version, scanned.graph,
-                     scanned.signature, with_labels ? it->second.labels : ""};
+  return StoredGraph{
+      scanned.record, scanned.settings,  scanned.graph_version,
+      scanned.graph,  scanned.signature, with_labels ? it->second.labels : ""};
 }
 
 absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
@@ -63,7 +70,7 @@ absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
   for (auto it = found->shapes.upper_bound(after_id);
        it != found->shapes.end() && static_cast<int>(scanned.size()) < limit;
        ++it) {
-    scanned.push_back(Scan(it->second));
+    scanned.push_back(Scan(*found, it->second));
   }
   return scanned;
 }
@@ -76,7 +83,7 @@ absl::StatusOr<ScannedGraph> MemoryCatalog::FindGraph(
   if (found == nullptr || !found->shapes.contains(id)) {
     return ShapeNotFoundError(collection_uid, id);
   }
-  return Scan(found->shapes.find(id)->second);
+  return Scan(*found, found->shapes.find(id)->second);
 }
 
 absl::StatusOr<std::string> MemoryCatalog::ReadWindows(

@@ -36,6 +36,35 @@ class EngineConcurrencyTest : public ::testing::Test {
     ASSERT_TRUE(engine_->WaitUntilServing().ok());
   }
 
+  static CollectionSettings SmallSettings(int vertex_budget) {
+    CollectionSettings settings = QuickSettings();
+    settings.vertex_budget = vertex_budget;
+    return settings;
+  }
+  void MakeCups(int vertex_budget) {
+    NewCollection cups;
+    cups.id = "cups";
+    cups.settings = SmallSettings(vertex_budget);
+    ASSERT_THAT(engine_->CreateCollection(cups), IsOk());
+  }
+
+  static SearchQuery QueryFor(QueryShape shape) {
+    SearchQuery query;
+    query.collection = "cups";
+    query.query = std::move(shape);
+    return query;
+  }
+  std::map<std::string, double> ScoresOf(const SearchQuery& query) {
+    const absl::StatusOr<SearchAnswer> answer = engine_->Search(query);
+    EXPECT_TRUE(answer.ok()) << answer.status();
+    std::map<std::string, double> scores;
+    if (!answer.ok()) return scores;
+    for (const SearchMatch& match : answer->matches) {
+      scores[match.shape.id] = match.score;
+    }
+    return scores;
+  }
+
   // What one thread does; it alone writes the shapes that begin with its name.
   void Work(int thread, absl::Time end) {
     Random random(static_cast<uint64_t>(thread) + 1);
@@ -128,18 +157,66 @@ class EngineConcurrencyTest : public ::testing::Test {
   std::atomic<int> operations_{0};
 };
 
+// Searches that run while a collection is switched to and fro answer one state
+// or the other.
+TEST_F(EngineConcurrencyTest, SearchesSeeOneSideOfASwitchWhole) {
+  Open();
+  ASSERT_NO_FATAL_FAILURE(MakeCups(100));
+  for (int i = 0; i < 4; ++i) {
+    NewShape shape;
+    shape.collection = "cups";
+    shape.id = "s" + std::to_string(i);
+    ASSERT_THAT(engine_->AddShape(shape, TorusOff(2 + i)), IsOk());
+  }
+  const std::vector<CollectionSettings> sides = {SmallSettings(100),
+                                                 SmallSettings(140)};
+  const std::vector<SearchQuery> queries = {QueryFor(ShapeRef{"cups", "s1"}),
+                                            QueryFor(MeshBytes{TorusOff(3)})};
+  // What each query answers on each side.
+  std::vector<std::vector<std::map<std::string, double>>> answers(2);
+  for (const size_t side : {1U, 0U}) {
+    ASSERT_THAT(engine_->Reindex("cups", sides[side], {}), IsOk());
+    for (const SearchQuery& query : queries) {
+      answers[side].push_back(ScoresOf(query));
+    }
+  }
+  ASSERT_NE(answers[0][0], answers[1][0]);
+  std::atomic<bool> stop{false};
+  std::vector<std::thread> threads;
+  for (size_t t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      while (!stop) {
+        const std::map<std::string, double> found = ScoresOf(queries[t % 2]);
+        EXPECT_TRUE(found == answers[0][t % 2] || found == answers[1][t % 2]);
+      }
+    });
+  }
+  for (int i = 1; i <= 6; ++i) {
+    const auto report =
+        engine_->Reindex("cups", sides[static_cast<size_t>(i % 2)], {});
+    EXPECT_TRUE(report.ok() && report->run.failed == 0) << report.status();
+    EXPECT_EQ(ScoresOf(queries[0]), answers[static_cast<size_t>(i % 2)][0]);
+  }
+  stop = true;
+  for (std::thread& thread : threads) thread.join();
+}
+
 TEST_F(EngineConcurrencyTest, HoldsWhatEveryThreadWasToldAlsoAfterARestart) {
   for (int i = 0; i < kMeshes; ++i) meshes_.push_back(TorusOff(2 + i));
   Open();
-  NewCollection cups;
-  cups.id = "cups";
-  cups.settings = QuickSettings();
-  cups.settings.vertex_budget = 100;
-  ASSERT_THAT(engine_->CreateCollection(cups), IsOk());
+  ASSERT_NO_FATAL_FAILURE(MakeCups(100));
   const absl::Time end = absl::Now() + kRunTime;
   std::vector<std::thread> threads;
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([this, t, end] { Work(t, end); });
+  }
+  // Two switches at least, whatever the time they take.
+  int switches = 0;
+  while (switches < 2 || absl::Now() < end) {
+    const auto report = engine_->Reindex(
+        "cups", SmallSettings(switches % 2 == 0 ? 140 : 100), {});
+    EXPECT_TRUE(report.ok() && report->run.failed == 0) << report.status();
+    ++switches;
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_GT(operations_, kThreads);

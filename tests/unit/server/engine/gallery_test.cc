@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "server/engine/error_reason.h"
 #include "tests/support/catalog_samples.h"
 #include "tests/support/memory_catalog.h"
@@ -20,7 +21,7 @@ class GalleryTest : public ::testing::Test {
   CollectionRecord Insert(const std::string& id, int shapes) {
     const CollectionRecord record = SampleCollection(id);
     EXPECT_TRUE(catalog_.InsertCollection(record, {}).ok());
-    for (int i = 0; i < shapes; ++i) Put(record, "s" + std::to_string(i));
+    for (int i = 0; i < shapes; ++i) Put(record, absl::StrCat("s", i));
     return record;
   }
   int64_t Put(const CollectionRecord& collection, const std::string& id) {
@@ -28,10 +29,27 @@ class GalleryTest : public ::testing::Test {
     put.if_exists = IfExists::kReplace;
     return catalog_.PutShape(put).value().record.generation;
   }
+  // Every shape has the mesh 1.
+  void StageAll(const CollectionRecord& collection) {
+    ASSERT_THAT(catalog_.BeginStage(collection.id, collection.uid, stage_),
+                IsOk());
+    ASSERT_OK_AND_ASSIGN(const std::vector<std::string> ids,
+                         catalog_.ListUnstaged(collection.uid, "", 1000));
+    for (const std::string& id : ids) {
+      ASSERT_THAT(catalog_.StageShape(SampleStaging(collection, id, 1, stage_)),
+                  IsOk());
+    }
+  }
+  absl::StatusOr<std::optional<CollectionRecord>> SwitchInCatalog(
+      const CollectionRecord& collection) {
+    return catalog_.SwitchSettings(
+        {collection.id, collection.uid, stage_, absl::UnixEpoch()});
+  }
   int64_t SizeOf(const std::string& id) {
     return gallery_.Snapshot(id, 0).value()->size;
   }
 
+  const SettingsStage stage_ = SampleStage(900);
   MemoryCatalog catalog_;
   ComputePool pool_;
   Gallery gallery_;
@@ -107,6 +125,56 @@ TEST_F(GalleryTest, IgnoresNewsOfACollectionThatIsGone) {
   gallery_.Follow("cups", old.uid, 9, std::nullopt);
   EXPECT_EQ(SizeOf("cups"), 0);
   EXPECT_EQ(gallery_.Snapshot("cups", 0).value()->generation, 0);
+}
+
+TEST_F(GalleryTest, SwitchesToWhatIsPutAsideAllAtOnce) {
+  const CollectionRecord cups = Insert("cups", 300);
+  gallery_.Load({});
+  StageAll(cups);
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr before,
+                       gallery_.Snapshot("cups", 0));
+  ASSERT_OK_AND_ASSIGN(Gallery::StagedShapes staged,
+                       gallery_.ReadStaged(cups, {}));
+  EXPECT_EQ(staged.size(), 300U);
+  const auto nothing = gallery_.Switch(
+      cups, staged, [] { return std::optional<CollectionRecord>(); });
+  ASSERT_THAT(nothing, IsOk());
+  EXPECT_FALSE(nothing->has_value());
+  EXPECT_EQ(gallery_.Snapshot("cups", 0).value(), before);
+
+  ASSERT_OK_AND_ASSIGN(
+      const std::optional<CollectionRecord> switched,
+      gallery_.Switch(cups, staged, [&] { return SwitchInCatalog(cups); }));
+  ASSERT_TRUE(switched.has_value());
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr after,
+                       gallery_.Snapshot("cups", switched->generation));
+  EXPECT_EQ(after->settings, stage_.settings);
+  EXPECT_EQ(after->size, 300);
+  for (const auto& block : after->blocks) {
+    for (const GalleryEntryPtr& entry : *block) {
+      const ShapeRecord stored =
+          catalog_.GetShape("cups", entry->record.id).value();
+      EXPECT_TRUE(SameRecord(entry->record, stored));
+    }
+  }
+  EXPECT_EQ(before->settings, cups.settings);
+  EXPECT_EQ(before->size, 300);
+}
+
+TEST_F(GalleryTest, NeverPutsAGraphOfNewSettingsAmongOldOnes) {
+  const CollectionRecord cups = Insert("cups", 3);
+  gallery_.Load({});
+  const int64_t put = Put(cups, "new");
+  StageAll(cups);
+  ASSERT_OK_AND_ASSIGN(const std::optional<CollectionRecord> switched,
+                       SwitchInCatalog(cups));
+  // Of the put alone is told, and the switch after it has been committed.
+  gallery_.Follow("cups", cups.uid, put, std::nullopt);
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr snapshot,
+                       gallery_.LatestSnapshot("cups"));
+  EXPECT_EQ(snapshot->generation, switched->generation);
+  EXPECT_EQ(snapshot->settings, stage_.settings);
+  EXPECT_EQ(snapshot->size, 4);
 }
 
 TEST_F(GalleryTest, StopsLoadingWhenAsked) {

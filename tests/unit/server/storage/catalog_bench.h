@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/engine/catalog.h"
+#include "server/engine/error_reason.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_catalog.h"
 #include "tests/support/memory_catalog.h"
@@ -20,6 +21,14 @@ enum class CatalogKind { kMemory, kSqlite };
 inline std::string CatalogKindName(
     const ::testing::TestParamInfo<CatalogKind>& info) {
   return info.param == CatalogKind::kMemory ? "Memory" : "Sqlite";
+}
+
+template <typename T>
+ErrorReason ReasonOrOk(const absl::StatusOr<T>& result) {
+  return ReasonOf(result.status()).value_or(ErrorReason{0});
+}
+inline ErrorReason ReasonOrOk(const absl::Status& status) {
+  return ReasonOf(status).value_or(ErrorReason{0});
 }
 
 class CatalogPortTest : public ::testing::TestWithParam<CatalogKind> {

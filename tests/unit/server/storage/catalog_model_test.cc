@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ constexpr uint64_t kShapes = 12;  // ids of each collection
 constexpr uint64_t kMeshes = 30;
 constexpr double kRestart = 0.004;
 constexpr double kCompare = 0.02;
+constexpr double kUnused = 0.03;
 
 // Payloads have no order: the reason alone.
 std::string Text(const absl::Status& status) {
@@ -89,7 +91,7 @@ class Operations {
 
   // What the next one does, in words, comes first in its text.
   Operation Next(Catalog& model) {
-    switch (random_.Below(12)) {
+    switch (random_.Below(15)) {
       case 0:
         return InsertCollection();
       case 1:
@@ -104,12 +106,19 @@ class Operations {
         return UpdateShape(model);
       case 7:
         return DeleteShape(model);
+      case 8:
+        return random_.Below(4) == 0 ? BeginStage(model)
+                                     : SwitchSettings(model);
+      case 9:
+      case 10:
+        return StageShapes(model);
       default:
         return Read(model);
     }
   }
 
   Random& random() { return random_; }
+  int switches() const { return switches_ / 2; }  // in both catalogs
 
  private:
   std::string CollectionId() {
@@ -195,6 +204,10 @@ class Operations {
     put.if_exists = static_cast<IfExists>(random_.Below(3));
     put.etag = EtagOfShape(model, collection, put.record.id);
     put.request = Stamp("PutShape", absl::StrCat(put.record.id, mesh));
+    if (random_.Below(8) == 0) put.settings = RandomStage().settings;
+    if (random_.Below(2) == 0) {
+      put.staged = SampleDescription(StageOf(collection), mesh);
+    }
     return [=](Catalog& catalog) {
       return "put " + collection + "/" + put.record.id + ": " +
              Text(catalog.PutShape(put), Show);
@@ -233,6 +246,75 @@ class Operations {
     };
   }
 
+  // Of few, so that stages come again.
+  SettingsStage RandomStage() {
+    SettingsStage stage =
+        SampleStage(500 + 100 * static_cast<int>(random_.Below(3)));
+    if (random_.Below(20) == 0) ++stage.graph_version;
+    return stage;
+  }
+
+  // Mostly the one that was begun last.
+  SettingsStage StageOf(const std::string& collection) {
+    const auto begun = begun_.find(collection);
+    return begun == begun_.end() || random_.Below(6) == 0 ? RandomStage()
+                                                          : begun->second;
+  }
+
+  Operation BeginStage(Catalog& model) {
+    const std::string id = CollectionId();
+    const auto record = model.GetCollection(id);
+    const std::string uid = record.ok() ? record->uid : "nobody";
+    const SettingsStage stage = RandomStage();
+    begun_[id] = stage;
+    return [=](Catalog& catalog) {
+      return "begin stage " + id + ": " +
+             Text(catalog.BeginStage(id, uid, stage));
+    };
+  }
+
+  // Of most shapes, so that some stages come to their end.
+  Operation StageShapes(Catalog& model) {
+    const auto record = model.GetCollection(CollectionId());
+    const CollectionRecord collection =
+        record.ok() ? *record : SampleCollection("c0");
+    const SettingsStage stage = StageOf(collection.id);
+    std::vector<ShapeStaging> stagings;
+    for (uint64_t i = 0; i < kShapes; ++i) {
+      if (random_.Below(16) == 0) continue;
+      ShapeStaging& staging = stagings.emplace_back(SampleStaging(
+          collection, absl::StrCat("s", i), random_.Below(kMeshes), stage));
+      const auto shape = model.GetShape(collection.id, staging.id);
+      if (shape.ok() && random_.Below(16) != 0) staging.sha256 = shape->sha256;
+    }
+    return [=](Catalog& catalog) {
+      std::string text = "stage shapes of " + collection.id + ": ";
+      for (const ShapeStaging& staging : stagings) {
+        text += Text(catalog.StageShape(staging));
+      }
+      return text;
+    };
+  }
+
+  Operation SwitchSettings(Catalog& model) {
+    SettingsSwitch change;
+    change.collection = CollectionId();
+    const auto record = model.GetCollection(change.collection);
+    change.collection_uid = record.ok() ? record->uid : "nobody";
+    change.stage = StageOf(change.collection);
+    change.update_time = absl::FromUnixSeconds(
+        1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
+    int& switches = switches_;
+    return [=, &switches](Catalog& catalog) {
+      const auto switched = catalog.SwitchSettings(change);
+      if (switched.ok() && *switched) ++switches;
+      return "switch " + change.collection + ": " +
+             Text(switched, [](const std::optional<CollectionRecord>& found) {
+               return found ? SerializeCollectionRecord(*found) : "missing";
+             });
+    };
+  }
+
   Operation Read(Catalog& model) {
     const std::string collection = CollectionId();
     const std::string id = ShapeId();
@@ -266,6 +348,8 @@ class Operations {
   }
 
   Random random_;
+  std::map<std::string, SettingsStage> begun_;  // by collection
+  int switches_ = 0;
 };
 
 class CatalogModelTest : public ::testing::Test {
@@ -299,6 +383,9 @@ TEST_F(CatalogModelTest, AnswersAsItsTwinInMemoryDoes) {
         << "seed " << seed << ", operation " << i << ", "
         << expected.substr(0, 200) << " but " << answer.substr(0, 200);
     const double chance = operations.random().Uniform();
+    if (chance < kUnused) {
+      ASSERT_TRUE(catalog_->RemoveUnusedGraphs({}).ok());
+    }
     if (chance < kRestart) {
       ++restarts;
       catalog_.reset();
@@ -310,9 +397,11 @@ TEST_F(CatalogModelTest, AnswersAsItsTwinInMemoryDoes) {
     }
   }
   EXPECT_TRUE(DumpCatalog(*catalog_) == DumpCatalog(model_)) << "seed " << seed;
-  std::printf("measured: %s operations with %d restarts, seed %s: %s\n",
-              absl::StrCat(count).c_str(), restarts, absl::StrCat(seed).c_str(),
-              HasFailure() ? "differences" : "0 differences");
+  std::printf(
+      "measured: %s operations with %d restarts and %d switches, seed %s: %s\n",
+      absl::StrCat(count).c_str(), restarts, operations.switches(),
+      absl::StrCat(seed).c_str(),
+      HasFailure() ? "differences" : "0 differences");
 }
 
 }  // namespace

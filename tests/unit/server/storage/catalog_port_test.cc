@@ -16,11 +16,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-template <typename T>
-ErrorReason ReasonOrOk(const absl::StatusOr<T>& result) {
-  return ReasonOf(result.status()).value_or(ErrorReason{0});
-}
-
 std::vector<std::string> IdsOf(const std::vector<ShapeRecord>& records) {
   std::vector<std::string> ids;
   for (const ShapeRecord& record : records) ids.push_back(record.id);

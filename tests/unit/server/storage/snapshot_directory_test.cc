@@ -172,7 +172,7 @@ TEST_F(SnapshotDirectoryTest, FindsEveryKindOfDamage) {
     ASSERT_TRUE(connection.ok()) << connection.status();
     for (const char* sql :
          {"UPDATE graph SET crc32c = crc32c + 1 WHERE shape_id = 1",
-          "UPDATE face_label SET labels = x'00' WHERE shape_id = 2",
+          "UPDATE face_label SET labels = x'00' WHERE graph_id = 2",
           "UPDATE signature SET crc32c = 0 WHERE shape_id = 2",
           "UPDATE surface_windows SET words = x'01' WHERE shape_id = 3",
           "UPDATE surface_windows SET windows = x'01' WHERE shape_id = 3",

@@ -10,7 +10,10 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/crc32c.h"
 #include "server/engine/error_reason.h"
+#include "server/engine/record_codec.h"
+#include "server/storage/label_compression.h"
 #include "server/storage/schema.h"
 #include "tests/support/catalog_samples.h"
 #include "tests/support/status_matchers.h"
@@ -62,6 +65,41 @@ class SqliteCatalogTest : public ::testing::Test {
                                                static_cast<uint64_t>(i))),
                   IsOk());
     }
+  }
+
+  // As others see the database while it is open.
+  int64_t CountRows(const std::string& table) {
+    const auto reader = SqliteConnection::Open(
+        data_ / "catalog.db", SqliteConnection::Mode::kReadOnly);
+    if (!reader.ok()) return -1;
+    return (*reader)->QueryInt("SELECT COUNT(*) FROM " + table).value_or(-1);
+  }
+  // A database of schema version 3 that has `put` alone.
+  void WriteVersion3(const ShapePut& put) {
+    const fs::path path = data_ / "catalog.db";
+    ASSERT_OK_AND_ASSIGN(
+        const std::unique_ptr<SqliteConnection> connection,
+        SqliteConnection::Open(path, SqliteConnection::Mode::kReadWrite));
+    ASSERT_THAT(Migrate(*connection, path, CatalogMigrations().first(3)),
+                IsOk());
+    const std::string settings = SerializeCollectionSettings(cups_.settings);
+    const std::string details = SerializeShapeDetails(put.record);
+    ASSERT_OK_AND_ASSIGN(const std::string labels, CompressLabels(put.labels));
+    const auto run = [&](const char* sql, const auto&... values) {
+      ASSERT_THAT(connection->Run(sql, values...), IsOk()) << sql;
+    };
+    run("INSERT INTO collection VALUES (5, 'cups', ?, '', ?, ?, 1, 1, 1, 1, 1, "
+        "x'')",
+        cups_.uid, SqliteBlob(settings), cups_.graph_version);
+    run("INSERT INTO shape VALUES (17, 5, 'red', 'uid', 3, '', ?, 10, 3, NULL, "
+        "'', '', '{}', ?, 1, 1, 1)",
+        SqliteBlob(put.record.sha256), SqliteBlob(details));
+    run("INSERT INTO graph VALUES (17, ?, ?, ?)", put.graph_version,
+        SqliteBlob(put.graph), ComputeCrc32c(put.graph));
+    run("INSERT INTO face_label VALUES (17, ?, ?, ?)",
+        static_cast<int64_t>(put.labels.size()), SqliteBlob(labels),
+        ComputeCrc32c(labels));
+    run("INSERT INTO change_log VALUES (5, 1, 'red', 1)");
   }
 
   TemporaryDirectory folder_;
@@ -219,6 +257,82 @@ TEST_F(SqliteCatalogTest, RefusesToGrowWhenTheDiskIsLow) {
   EXPECT_EQ(ReasonOf(full), ErrorReason::kStoreFull);
   EXPECT_THAT(catalog_->GetShape("cups", "s0"), IsOk());
   EXPECT_THAT(catalog_->DeleteShape({"cups", "s0", "", {}}), IsOk());
+}
+
+TEST_F(SqliteCatalogTest, GoesOnWithAStageAfterARestartAndFreesWhatItReplaces) {
+  constexpr int kShapes = 150;  // more than are removed at once
+  Fill(kShapes);
+  const SettingsStage stage = SampleStage(900);
+  ASSERT_THAT(catalog_->BeginStage("cups", cups_.uid, stage), IsOk());
+  const auto put_aside = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      ASSERT_THAT(
+          catalog_->StageShape(SampleStaging(cups_, "s" + std::to_string(i),
+                                             static_cast<uint64_t>(i), stage)),
+          IsOk());
+    }
+  };
+  put_aside(0, kShapes / 2);
+  Close();
+  Open();
+  ASSERT_THAT(catalog_->RemoveUnusedGraphs({}), IsOk());
+  put_aside(kShapes / 2, kShapes);
+  ASSERT_OK_AND_ASSIGN(
+      const std::optional<CollectionRecord> switched,
+      catalog_->SwitchSettings({"cups", cups_.uid, stage, cups_.update_time}));
+  ASSERT_TRUE(switched.has_value());
+  EXPECT_EQ(CountRows("graph"), 2 * kShapes);
+  const StopToken stopped({}, absl::UnixEpoch());
+  EXPECT_FALSE(catalog_->RemoveUnusedGraphs(stopped).ok());
+  ASSERT_THAT(catalog_->RemoveUnusedGraphs({}), IsOk());
+  EXPECT_EQ(CountRows("graph"), kShapes);
+  EXPECT_EQ(CountRows("face_label"), kShapes);
+  EXPECT_EQ(CountRows("staged_shape"), 0);
+  EXPECT_EQ(CountRows("stage"), 0);
+  for (int i = 0; i < kShapes; ++i) {
+    ASSERT_OK_AND_ASSIGN(
+        const StoredGraph graph,
+        catalog_->ReadGraph("cups", "s" + std::to_string(i), true));
+    EXPECT_EQ(graph.graph,
+              SampleDescription(stage, static_cast<uint64_t>(i)).graph);
+  }
+}
+
+TEST_F(SqliteCatalogTest, KeepsOneGraphOfAShapeThatIsReplaced) {
+  Fill(1);
+  const SettingsStage stage = SampleStage(900);
+  ASSERT_THAT(catalog_->BeginStage("cups", cups_.uid, stage), IsOk());
+  for (int i = 0; i < 3; ++i) {
+    ShapePut put = SamplePut(cups_, "s0", 0);
+    put.if_exists = IfExists::kReplace;
+    put.staged = SampleDescription(stage, 0);
+    ASSERT_THAT(catalog_->PutShape(put), IsOk());
+  }
+  EXPECT_EQ(CountRows("graph"), 2) << "one of each settings";
+  EXPECT_EQ(CountRows("face_label"), 2);
+}
+
+TEST_F(SqliteCatalogTest, BringsAStoreOfVersionThreeUpToDate) {
+  ASSERT_TRUE(fs::create_directories(data_));
+  cups_ = SampleCollection("cups");
+  const ShapePut put = SamplePut(cups_, "red", 1);
+  ASSERT_NO_FATAL_FAILURE(WriteVersion3(put));
+  Open();
+  EXPECT_TRUE(fs::exists(data_ / "catalog.db.version-3"));
+  ASSERT_OK_AND_ASSIGN(const StoredGraph red,
+                       catalog_->ReadGraph("cups", "red", true));
+  EXPECT_EQ(red.graph, put.graph);
+  EXPECT_EQ(red.labels, put.labels);
+  EXPECT_EQ(red.settings, cups_.settings);
+  ASSERT_OK_AND_ASSIGN(const std::vector<ShapeChange> changes,
+                       catalog_->ReadChanges(cups_.uid, 0, 10));
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].id, "red");
+  // New graphs do not take the numbers of old ones.
+  ASSERT_THAT(catalog_->PutShape(SamplePut(cups_, "blue", 2)), IsOk());
+  EXPECT_EQ(catalog_->ReadGraph("cups", "red", true).value().graph, put.graph);
+  ASSERT_THAT(catalog_->RemoveUnusedGraphs({}), IsOk());
+  EXPECT_EQ(CountRows("graph"), 2);
 }
 
 TEST_F(SqliteCatalogTest, TakesWritesFromManyThreadsAtOnce) {

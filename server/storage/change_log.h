@@ -1,0 +1,22 @@
+// The log of what happens to a collection, and its generations.
+#ifndef ARGMESH_SERVER_STORAGE_CHANGE_LOG_H_
+#define ARGMESH_SERVER_STORAGE_CHANGE_LOG_H_
+
+#include <cstdint>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "server/engine/catalog_requests.h"
+#include "server/storage/sqlite_connection.h"
+
+namespace argmesh {
+
+// The collection's next generation, with the change in its log; `added` shapes
+// are more in it then.
+absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
+                                  int64_t collection, const std::string& id,
+                                  ShapeChange::Kind kind, int added);
+
+}  // namespace argmesh
+
+#endif  // ARGMESH_SERVER_STORAGE_CHANGE_LOG_H_
