@@ -32,7 +32,7 @@ constexpr uint64_t kSeed = 1;
 constexpr double kSmallestVariance = 1e-10;
 constexpr float kLargestCode = 127;
 
-// Distances are those that similarity looks at.
+// Parts count as they do in similarity.
 Eigen::VectorXf Flatten(const ShapeSignature& signature) {
   Eigen::VectorXf flat(kSignatureDims);
   const auto part = [](const std::vector<float>& values, double share) {
@@ -40,8 +40,8 @@ Eigen::VectorXf Flatten(const ShapeSignature& signature) {
            Eigen::Map<const Eigen::VectorXf>(
                values.data(), static_cast<Eigen::Index>(values.size()));
   };
-  flat.head(kPointDims) = part(signature.point, kPointShare);
-  flat.tail(kViewDims) = part(signature.view, kViewShare);
+  flat.head(kPointDims) = part(signature.point, kPointScale.weight);
+  flat.tail(kViewDims) = part(signature.view, kViewScale.weight);
   return flat;
 }
 

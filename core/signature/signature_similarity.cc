@@ -22,6 +22,13 @@ double SquaredDistance(const std::vector<float>& a,
   return squared;
 }
 
+// Of squared distances. Not above 1, whatever the rounding.
+double MeanSimilarity(double point, double view) {
+  return std::min(1.0,
+                  kPointScale.weight * ScaledSimilarity(kPointScale, point) +
+                      kViewScale.weight * ScaledSimilarity(kViewScale, view));
+}
+
 // No sum of products overflows: vectors are at most 2^14 long.
 int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
   int32_t sum = 0;
@@ -34,32 +41,35 @@ int32_t Dot(const std::vector<int16_t>& a, const std::vector<int16_t>& b) {
 }  // namespace
 
 double SignatureSimilarity(const ShapeSignature& a, const ShapeSignature& b) {
-  return SimilarityOfDistance(
-      std::sqrt(kPointShare * SquaredDistance(a.point, b.point) +
-                kViewShare * SquaredDistance(a.view, b.view)));
+  return MeanSimilarity(SquaredDistance(a.point, b.point),
+                        SquaredDistance(a.view, b.view));
+}
+
+PackedSignature::Part::Part(const std::vector<float>& numbers) {
+  values.reserve(numbers.size());
+  for (const float number : numbers) {
+    values.push_back(static_cast<int16_t>(
+        std::lround(static_cast<double>(number) * kFixedPoint)));
+  }
+  squared = Dot(values, values);
 }
 
 PackedSignature::PackedSignature(const ShapeSignature& signature)
-    : chirality_(signature.chirality) {
-  values_.reserve(kSignatureDims);
-  const auto append = [this](const std::vector<float>& part, double share) {
-    const double scale = std::sqrt(share) * kFixedPoint;
-    for (const float value : part) {
-      values_.push_back(static_cast<int16_t>(
-          std::lround(static_cast<double>(value) * scale)));
-    }
-  };
-  append(signature.point, kPointShare);
-  append(signature.view, kViewShare);
-  squared_ = Dot(values_, values_);
+    : point_(signature.point),
+      view_(signature.view),
+      chirality_(signature.chirality) {}
+
+double PackedSignature::SquaredDistance(const Part& a, const Part& b) {
+  const double squared =
+      (static_cast<double>(a.squared) + static_cast<double>(b.squared) -
+       2 * static_cast<double>(Dot(a.values, b.values))) /
+      (kFixedPoint * kFixedPoint);
+  return std::max(0.0, squared);
 }
 
 double SignatureSimilarity(const PackedSignature& a, const PackedSignature& b) {
-  const double squared =
-      (static_cast<double>(a.squared_) + static_cast<double>(b.squared_) -
-       2 * static_cast<double>(Dot(a.values_, b.values_))) /
-      (kFixedPoint * kFixedPoint);
-  return SimilarityOfDistance(std::sqrt(std::max(0.0, squared)));
+  return MeanSimilarity(PackedSignature::SquaredDistance(a.point_, b.point_),
+                        PackedSignature::SquaredDistance(a.view_, b.view_));
 }
 
 }  // namespace argmesh

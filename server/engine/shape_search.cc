@@ -44,7 +44,7 @@ QueryNeeds NeedsOf(MatchMode mode, RankingMethod ranking) {
 }
 
 std::vector<ScoreTerm> FusedTerms(double graph, double signature) {
-  return {{"graph", graph, kGraphWeight},
+  return {{"graph", ScaledGraphScore(graph), kGraphWeight},
           {"signature", signature, kSignatureWeight}};
 }
 

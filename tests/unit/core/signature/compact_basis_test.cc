@@ -102,12 +102,13 @@ TEST(CompactBasis, GivesAZeroForItsMean) {
   ASSERT_OK_AND_ASSIGN(CompactBasis basis,
                        FitCompactBasis(Pointers(signatures)));
   for (int i = 0; i < kPointDims; ++i) {
-    basis.mean[i] = static_cast<float>(std::sqrt(kPointShare)) *
+    basis.mean[i] = static_cast<float>(std::sqrt(kPointScale.weight)) *
                     signatures[0].point[static_cast<size_t>(i)];
   }
   for (int i = 0; i < kViewDims; ++i) {
-    basis.mean[kPointDims + i] = static_cast<float>(std::sqrt(kViewShare)) *
-                                 signatures[0].view[static_cast<size_t>(i)];
+    basis.mean[kPointDims + i] =
+        static_cast<float>(std::sqrt(kViewScale.weight)) *
+        signatures[0].view[static_cast<size_t>(i)];
   }
   const CompactVector zero = ProjectSignature(basis, signatures[0]);
   EXPECT_EQ(zero, CompactVector{});

@@ -31,17 +31,16 @@ TEST(SignatureSimilarity, IsSymmetricAndFallsWithTheDifference) {
   }
 }
 
-TEST(SignatureSimilarity, TakesBothPartsAlike) {
+TEST(SignatureSimilarity, LooksAtEveryPart) {
   const ShapeSignature a = MakeRandomSignature(1);
   const ShapeSignature other = MakeRandomSignature(2);
-  ShapeSignature point_differs = a;
-  point_differs.point = other.point;
-  ShapeSignature view_differs = a;
-  view_differs.view = other.view;
-  EXPECT_LT(SignatureSimilarity(a, point_differs), 0.95);
-  EXPECT_LT(SignatureSimilarity(a, view_differs), 0.95);
-  EXPECT_LT(SignatureSimilarity(a, other),
-            SignatureSimilarity(a, point_differs));
+  using Part = std::vector<float> ShapeSignature::*;
+  for (const Part part : {&ShapeSignature::point, &ShapeSignature::view}) {
+    ShapeSignature differs = a;
+    differs.*part = other.*part;
+    EXPECT_LT(SignatureSimilarity(a, differs), 0.95);
+    EXPECT_LT(SignatureSimilarity(a, other), SignatureSimilarity(a, differs));
+  }
 }
 
 TEST(SignatureSimilarity, KnowsTwoSurfacesOfWhichNothingIsSeen) {
@@ -77,17 +76,23 @@ TEST(PackedSignature, HoldsTheLongestProductsWithoutOverflow) {
   opposite.view[0] = -1;
   EXPECT_NEAR(
       SignatureSimilarity(PackedSignature(peak), PackedSignature(opposite)),
-      SimilarityOfDistance(2), 1e-6);
+      SignatureSimilarity(peak, opposite), 1e-6);
 }
 
 TEST(SimilarityScale, StartsAtOneAndFalls) {
-  EXPECT_EQ(SimilarityOfDistance(0), 1.0);
-  double before = 1;
-  for (double distance = 0.25; distance <= 2; distance += 0.25) {
-    EXPECT_LT(SimilarityOfDistance(distance), before);
-    before = SimilarityOfDistance(distance);
+  double weights = 0;
+  for (const SimilarityScale& scale : {kPointScale, kViewScale}) {
+    weights += scale.weight;
+    EXPECT_EQ(ScaledSimilarity(scale, 0), 1.0);
+    EXPECT_NEAR(ScaledSimilarity(scale, scale.half * scale.half), 0.5, 1e-12);
+    double before = 1;
+    for (double squared = 0.25; squared <= 4; squared += 0.25) {
+      EXPECT_LT(ScaledSimilarity(scale, squared), before);
+      before = ScaledSimilarity(scale, squared);
+    }
+    EXPECT_GE(before, 0.0);
   }
-  EXPECT_GE(before, 0.0);
+  EXPECT_DOUBLE_EQ(weights, 1);
 }
 
 TEST(CompareHandedness, TellsMirroredFromSame) {
