@@ -1,10 +1,10 @@
 // How alike two shapes are by their signatures.
 //
-// The distance of each part, 0 .. 2, becomes a similarity by a frozen decreasing
-// function of its own (similarity_scale.h): 1 for equal parts, 0.5 where 1 of
-// 100 unlike shapes is as near. Their weighted mean is the similarity of the
-// signatures, so the same number means the same in every collection. Views
-// weigh most: they tell more, and tell it of soup too.
+// The distance of each part, 0 .. 2, becomes a similarity by a frozen
+// decreasing function of its own (similarity_scale.h): 1 for equal parts, 0.5
+// where 1 of 100 unlike shapes is as near. Their weighted mean is the
+// similarity of the signatures, so the same number means the same in every
+// collection. Views weigh most: they tell more, and tell it of soup too.
 #ifndef ARGMESH_CORE_SIGNATURE_SIGNATURE_SIMILARITY_H_
 #define ARGMESH_CORE_SIGNATURE_SIGNATURE_SIMILARITY_H_
 
