@@ -120,7 +120,9 @@ class Client {
   // Each waits until the server is done, longer than the options' time if need
   // be. kInternal when the answer is not what it should be.
   absl::StatusOr<v1::Snapshot> CreateSnapshot(std::string_view id);
-  absl::StatusOr<v1::VerifyStorageResponse> VerifyStorage();
+  // Of one collection, `collections/{collection}`; empty: of everything.
+  absl::StatusOr<v1::VerifyStorageResponse> VerifyStorage(
+      const std::string& collection = "");
   absl::StatusOr<std::vector<v1::Snapshot>> ListSnapshots();
   absl::Status DeleteSnapshot(std::string_view name);
   // Hands out the bytes in order. They may be used once it returns OK: then

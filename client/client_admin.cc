@@ -27,8 +27,10 @@ absl::StatusOr<v1::Snapshot> Client::CreateSnapshot(std::string_view id) {
   return Await<v1::Snapshot>(*parts_, std::move(operation));
 }
 
-absl::StatusOr<v1::VerifyStorageResponse> Client::VerifyStorage() {
-  const v1::VerifyStorageRequest request;
+absl::StatusOr<v1::VerifyStorageResponse> Client::VerifyStorage(
+    const std::string& collection) {
+  v1::VerifyStorageRequest request;
+  request.set_collection(collection);
   ARGMESH_ASSIGN_OR_RETURN(
       Operation operation,
       parts_->Call<Operation>(

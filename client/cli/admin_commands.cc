@@ -46,7 +46,8 @@ constexpr char kVerifyDetails[] =
     R"(Compares the checksum of everything stored. Exit code 1 when something is damaged.
 
 Examples:
-  argmesh admin verify)";
+  argmesh admin verify
+  argmesh admin verify cups)";
 
 struct SnapshotArguments {
   std::string id;
@@ -146,10 +147,14 @@ absl::StatusOr<int> Delete(const Session& session,
   return kExitOk;
 }
 
-absl::StatusOr<int> Verify(const Session& session) {
+// `collection` is an id; empty: everything.
+absl::StatusOr<int> Verify(const Session& session,
+                           const std::string& collection) {
   ARGMESH_ASSIGN_OR_RETURN(const auto client, session.Connect());
-  ARGMESH_ASSIGN_OR_RETURN(const v1::VerifyStorageResponse report,
-                           client->VerifyStorage());
+  ARGMESH_ASSIGN_OR_RETURN(
+      const v1::VerifyStorageResponse report,
+      client->VerifyStorage(
+          collection.empty() ? "" : absl::StrCat("collections/", collection)));
   Json findings = Json::array();
   for (const std::string& finding : report.first_findings()) {
     findings.push_back(finding);
@@ -202,8 +207,14 @@ void AddAdminCommands(CLI::App& app, CommandSet& commands) {
   CLI::App* admin = commands.AddGroup(
       app, {"admin", "Snapshots and checks of the store.", kAdminDetails});
   AddSnapshotCommands(*admin, commands);
-  commands.Add(*admin, {"verify", "Check everything stored.", kVerifyDetails},
-               Verify);
+  const auto collection = std::make_shared<std::string>();
+  commands
+      .Add(*admin, {"verify", "Check everything stored.", kVerifyDetails},
+           [collection](const Session& session) {
+             return Verify(session, *collection);
+           })
+      ->add_option("collection", *collection, "Only this collection")
+      ->type_name("ID");
 }
 
 }  // namespace argmesh

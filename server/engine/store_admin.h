@@ -66,8 +66,10 @@ class StoreAdmin {
       std::string_view id) const = 0;
   virtual absl::Status DeleteSnapshot(std::string_view id) = 0;
 
-  // Reads everything. What is damaged is a finding, not a failure.
-  virtual absl::StatusOr<StorageReport> Verify(const StopToken& stop) const = 0;
+  // Reads everything, or what belongs to the shapes of one collection
+  // (kCollectionNotFound). What is damaged is a finding, not a failure.
+  virtual absl::StatusOr<StorageReport> Verify(std::string_view collection,
+                                               const StopToken& stop) const = 0;
 };
 
 }  // namespace argmesh

@@ -11,21 +11,93 @@
 #include "server/rpc/resource_name.h"
 #include "server/rpc/snapshot_reactor.h"
 #include "server/rpc/status.h"
-#include "server/rpc/unary_reactor.h"
 
 namespace argmesh {
 namespace {
 
 constexpr char kSnapshotList[] = "snapshots";
+constexpr char kCreateSnapshot[] = "AdminService.CreateSnapshot";
+constexpr char kVerifyStorage[] = "AdminService.VerifyStorage";
 
-absl::Status ListPage(const StoreAdmin& store,
-                      const v1::ListSnapshotsRequest& request,
-                      v1::ListSnapshotsResponse* response) {
+// METHOD_NOT_SERVED where there is none.
+absl::StatusOr<StoreAdmin*> StoreOf(const UnaryCall& call, const char* method) {
+  StoreAdmin* const store = call.environment.store_admin;
+  if (store == nullptr) return MethodNotServed(method);
+  return store;
+}
+
+absl::Status GetServerInfo(const UnaryCall& call,
+                           const v1::GetServerInfoRequest&,
+                           v1::GetServerInfoResponse* response) {
+  ServiceEnvironment& environment = call.environment;
+  response->set_version(environment.version);
+  response->set_graph_version(kShapeGraphVersion);
+  *response->mutable_start_time() = ToTimestamp(environment.start_time);
+  *response->mutable_uptime() =
+      ToDuration(absl::Now() - environment.start_time);
+  v1::ServerLimits& limits = *response->mutable_limits();
+  limits.set_max_mesh_bytes(environment.engine.options().mesh_limits.max_bytes);
+  limits.set_max_message_bytes(kMaxMessageBytes);
+  limits.set_max_inflight_searches(environment.searches.limit());
+  limits.set_max_inflight_uploads(environment.uploads.limit());
+  limits.set_max_inflight_ingests(environment.ingests.limit());
+  limits.set_max_page_size(kMaxPageSize);
+  limits.set_max_search_limit(kMaxSearchLimit);
+  response->set_calls_in_flight(environment.calls.in_flight());
+  response->set_draining(environment.calls.draining());
+  int64_t shapes = 0;
+  int64_t collections = 0;
+  for (const CollectionHealth& health : environment.engine.Health()) {
+    ++collections;
+    shapes += health.shapes;
+  }
+  response->set_collection_count(collections);
+  response->set_shape_count(shapes);
+  return absl::OkStatus();
+}
+
+absl::Status CreateSnapshot(const UnaryCall& call,
+                            const v1::CreateSnapshotRequest& request,
+                            google::longrunning::Operation* response) {
+  ARGMESH_ASSIGN_OR_RETURN(StoreAdmin* const store,
+                           StoreOf(call, kCreateSnapshot));
+  const std::string& id = request.snapshot_id();
+  ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
+  const auto work =
+      [store,
+       id](const RunControl& control) -> absl::StatusOr<google::protobuf::Any> {
+    ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
+                             store->CreateSnapshot(id, control.stop));
+    return Packed(ToProto(record));
+  };
+  ARGMESH_ASSIGN_OR_RETURN(
+      *response, call.environment.operations.Start(kCreateSnapshot,
+                                                   SnapshotName(id), work));
+  return absl::OkStatus();
+}
+
+absl::Status GetSnapshot(const UnaryCall& call,
+                         const v1::GetSnapshotRequest& request,
+                         v1::Snapshot* response) {
+  ARGMESH_ASSIGN_OR_RETURN(StoreAdmin* const store,
+                           StoreOf(call, "AdminService.GetSnapshot"));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                           ParseSnapshotName("name", request.name()));
+  ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record, store->GetSnapshot(id));
+  *response = ToProto(record);
+  return absl::OkStatus();
+}
+
+absl::Status ListSnapshots(const UnaryCall& call,
+                           const v1::ListSnapshotsRequest& request,
+                           v1::ListSnapshotsResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(StoreAdmin* const store,
+                           StoreOf(call, "AdminService.ListSnapshots"));
   ARGMESH_ASSIGN_OR_RETURN(const int limit, CheckPageSize(request.page_size()));
   ARGMESH_ASSIGN_OR_RETURN(const std::string after,
                            ParsePageToken(kSnapshotList, request.page_token()));
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<SnapshotRecord> records,
-                           store.ListSnapshots());
+                           store->ListSnapshots());
   for (const SnapshotRecord& record : records) {
     if (record.id <= after) continue;
     if (response->snapshots_size() == limit) {
@@ -40,149 +112,50 @@ absl::Status ListPage(const StoreAdmin& store,
   return absl::OkStatus();
 }
 
+absl::Status DeleteSnapshot(const UnaryCall& call,
+                            const v1::DeleteSnapshotRequest& request,
+                            v1::DeleteSnapshotResponse*) {
+  ARGMESH_ASSIGN_OR_RETURN(StoreAdmin* const store,
+                           StoreOf(call, "AdminService.DeleteSnapshot"));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string id,
+                           ParseSnapshotName("name", request.name()));
+  return store->DeleteSnapshot(id);
+}
+
+absl::Status VerifyStorage(const UnaryCall& call,
+                           const v1::VerifyStorageRequest& request,
+                           google::longrunning::Operation* response) {
+  ARGMESH_ASSIGN_OR_RETURN(StoreAdmin* const store,
+                           StoreOf(call, kVerifyStorage));
+  std::string collection;
+  if (!request.collection().empty()) {
+    ARGMESH_ASSIGN_OR_RETURN(
+        collection, ParseCollectionName("collection", request.collection()));
+  }
+  const auto work =
+      [store, collection](
+          const RunControl& control) -> absl::StatusOr<google::protobuf::Any> {
+    ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
+                             store->Verify(collection, control.stop));
+    return Packed(ToProto(report));
+  };
+  ARGMESH_ASSIGN_OR_RETURN(
+      *response, call.environment.operations.Start(kVerifyStorage,
+                                                   request.collection(), work));
+  return absl::OkStatus();
+}
+
 }  // namespace
 
-void AdminServiceImpl::FillServerInfo(
-    v1::GetServerInfoResponse* response) const {
-  response->set_version(environment_.version);
-  response->set_graph_version(kShapeGraphVersion);
-  *response->mutable_start_time() = ToTimestamp(start_time_);
-  *response->mutable_uptime() = ToDuration(absl::Now() - start_time_);
-  v1::ServerLimits& limits = *response->mutable_limits();
-  limits.set_max_mesh_bytes(
-      environment_.engine.options().mesh_limits.max_bytes);
-  limits.set_max_message_bytes(kMaxMessageBytes);
-  limits.set_max_inflight_searches(environment_.searches.limit());
-  limits.set_max_inflight_uploads(environment_.uploads.limit());
-  limits.set_max_inflight_ingests(environment_.ingests.limit());
-  limits.set_max_page_size(kMaxPageSize);
-  limits.set_max_search_limit(kMaxSearchLimit);
-  response->set_calls_in_flight(environment_.calls.in_flight());
-  response->set_draining(environment_.calls.draining());
-  int64_t shapes = 0;
-  int64_t collections = 0;
-  for (const CollectionHealth& health : environment_.engine.Health()) {
-    ++collections;
-    shapes += health.shapes;
-  }
-  response->set_collection_count(collections);
-  response->set_shape_count(shapes);
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::GetServerInfo(
-    grpc::CallbackServerContext* context,
-    const v1::GetServerInfoRequest* request,
-    v1::GetServerInfoResponse* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"AdminService.GetServerInfo"},
-                             [this, response](const UnaryCall&) {
-                               FillServerInfo(response);
-                               return absl::OkStatus();
-                             });
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::Serve(
-    grpc::CallbackServerContext* context, const UnaryMessages& messages,
-    const char* method, std::function<absl::Status(StoreAdmin&)> body) {
-  if (environment_.store_admin == nullptr) {
-    return UnaryReactor::NotServed(environment_, context, messages.request,
-                                   method);
-  }
-  return UnaryReactor::Start(environment_, context, messages, {method},
-                             [this, body = std::move(body)](const UnaryCall&) {
-                               return body(*environment_.store_admin);
-                             });
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::CreateSnapshot(
-    grpc::CallbackServerContext* context,
-    const v1::CreateSnapshotRequest* request,
-    google::longrunning::Operation* response) {
-  static constexpr char kMethod[] = "AdminService.CreateSnapshot";
-  return Serve(
-      context, {request, response}, kMethod,
-      [this, request, response](StoreAdmin& store) -> absl::Status {
-        const std::string& id = request->snapshot_id();
-        ARGMESH_RETURN_IF_ERROR(CheckResourceId("snapshot_id", id));
-        const auto work = [&store, id](const RunControl& control)
-            -> absl::StatusOr<google::protobuf::Any> {
-          ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
-                                   store.CreateSnapshot(id, control.stop));
-          return Packed(ToProto(record));
-        };
-        ARGMESH_ASSIGN_OR_RETURN(
-            *response,
-            environment_.operations.Start(kMethod, SnapshotName(id), work));
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::GetSnapshot(
-    grpc::CallbackServerContext* context, const v1::GetSnapshotRequest* request,
-    v1::Snapshot* response) {
-  return Serve(context, {request, response}, "AdminService.GetSnapshot",
-               [request, response](StoreAdmin& store) -> absl::Status {
-                 ARGMESH_ASSIGN_OR_RETURN(
-                     const std::string id,
-                     ParseSnapshotName("name", request->name()));
-                 ARGMESH_ASSIGN_OR_RETURN(const SnapshotRecord record,
-                                          store.GetSnapshot(id));
-                 *response = ToProto(record);
-                 return absl::OkStatus();
-               });
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::ListSnapshots(
-    grpc::CallbackServerContext* context,
-    const v1::ListSnapshotsRequest* request,
-    v1::ListSnapshotsResponse* response) {
-  return Serve(context, {request, response}, "AdminService.ListSnapshots",
-               [request, response](StoreAdmin& store) {
-                 return ListPage(store, *request, response);
-               });
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::DeleteSnapshot(
-    grpc::CallbackServerContext* context,
-    const v1::DeleteSnapshotRequest* request,
-    v1::DeleteSnapshotResponse* response) {
-  return Serve(context, {request, response}, "AdminService.DeleteSnapshot",
-               [request](StoreAdmin& store) -> absl::Status {
-                 ARGMESH_ASSIGN_OR_RETURN(
-                     const std::string id,
-                     ParseSnapshotName("name", request->name()));
-                 return store.DeleteSnapshot(id);
-               });
-}
-
-grpc::ServerWriteReactor<v1::DownloadSnapshotResponse>*
-AdminServiceImpl::DownloadSnapshot(grpc::CallbackServerContext* context,
-                                   const v1::DownloadSnapshotRequest* request) {
-  return StartReactor<SnapshotReactor>(environment_, context, request);
-}
-
-grpc::ServerUnaryReactor* AdminServiceImpl::VerifyStorage(
-    grpc::CallbackServerContext* context,
-    const v1::VerifyStorageRequest* request,
-    google::longrunning::Operation* response) {
-  static constexpr char kMethod[] = "AdminService.VerifyStorage";
-  return Serve(
-      context, {request, response}, kMethod,
-      [this, request, response](StoreAdmin& store) -> absl::Status {
-        if (!request->collection().empty()) {
-          return FieldInvalid("collection",
-                              "not served by this version; leave it empty");
-        }
-        const auto work = [&store](const RunControl& control)
-            -> absl::StatusOr<google::protobuf::Any> {
-          ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
-                                   store.Verify(control.stop));
-          return Packed(ToProto(report));
-        };
-        ARGMESH_ASSIGN_OR_RETURN(
-            *response, environment_.operations.Start(kMethod, "", work));
-        return absl::OkStatus();
-      });
+AdminServiceImpl::AdminServiceImpl(ServiceEnvironment& environment)
+    : RpcService(environment) {
+  Unary({"AdminService.GetServerInfo"}, GetServerInfo);
+  Unary({kCreateSnapshot}, CreateSnapshot);
+  Unary({"AdminService.GetSnapshot"}, GetSnapshot);
+  Unary({"AdminService.ListSnapshots"}, ListSnapshots);
+  Unary({"AdminService.DeleteSnapshot"}, DeleteSnapshot);
+  Stream<SnapshotReactor>("AdminService.DownloadSnapshot");
+  Unary({kVerifyStorage}, VerifyStorage);
 }
 
 }  // namespace argmesh

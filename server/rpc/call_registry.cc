@@ -1,7 +1,7 @@
 #include "server/rpc/call_registry.h"
 
 #include "absl/time/clock.h"
-#include "server/engine/error_reason.h"
+#include "server/rpc/status.h"
 
 namespace argmesh {
 
@@ -20,10 +20,7 @@ CallRegistry::~CallRegistry() {
 absl::Status CallRegistry::Enter(LiveCall* call) {
   const std::lock_guard lock(mutex_);
   calls_.insert(call);
-  if (!draining_) return absl::OkStatus();
-  return WithRetryDelay(
-      MakeError(ErrorReason::kDraining, "the server is going down"),
-      absl::Seconds(1));
+  return draining_ ? ServerDraining() : absl::OkStatus();
 }
 
 void CallRegistry::Leave(LiveCall* call) {

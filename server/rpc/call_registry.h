@@ -26,8 +26,9 @@ class LiveCall {
   virtual void OnTick(absl::Time) {}
   // Once: the server is going down and waits at most `grace`.
   virtual void OnDrain(absl::Duration) {}
-  // Its answer takes memory and is not taken.
-  virtual void OnNotTaken() {}
+  // What it holds for its peer is too much beside what others hold
+  // (peer_budget.h).
+  virtual void OnOverBudget() {}
 };
 
 class CallRegistry {

@@ -60,7 +60,7 @@ CallScope::CallScope(ServiceEnvironment& environment,
   environment.telemetry.CallStarted(method);
 }
 
-absl::Status CallScope::Authorize(const google::protobuf::Message* request) {
+absl::Status CallScope::Authorize() {
   ARGMESH_ASSIGN_OR_RETURN(caller_,
                            environment_.access.Authenticate(*context_));
   {
@@ -73,8 +73,7 @@ absl::Status CallScope::Authorize(const google::protobuf::Message* request) {
     const std::lock_guard lock(mutex_);
     if (!finished_) quota_.swap(quota);  // else it is given back at once
   }
-  ARGMESH_RETURN_IF_ERROR(CheckRole(caller_, record_.method));
-  return request == nullptr ? absl::OkStatus() : AuthorizeMessage(*request);
+  return CheckRole(caller_, record_.method);
 }
 
 absl::Status CallScope::AuthorizeMessage(

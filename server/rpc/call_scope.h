@@ -44,11 +44,10 @@ class CallScope {
   // True the first time only. Takes mutex().
   bool MarkFinished();
 
-  // Whether the caller may make this call, and no more than its key allows;
-  // `request` is null where the client streams. Once, before anything else of
-  // the call is done.
-  absl::Status Authorize(const google::protobuf::Message* request);
-  // The same for a message of a stream. Only the first has to name a
+  // Whether the caller may make this call, and no more than its key allows.
+  // Once, before anything else of the call is done.
+  absl::Status Authorize();
+  // The same for a message of the call. Only the first has to name a
   // collection.
   absl::Status AuthorizeMessage(const google::protobuf::Message& message);
   const Caller& caller() const { return caller_; }

@@ -93,17 +93,4 @@ absl::StatusOr<AnnouncedShape> FromProto(std::string_view collection,
   return announced;
 }
 
-absl::Status StreamIdle(absl::Duration limit) {
-  return WithRetryDelay(
-      MakeError(
-          ErrorReason::kStreamIdle,
-          absl::StrFormat("nothing came for %s", absl::FormatDuration(limit)),
-          {{"limit_seconds", absl::StrCat(absl::ToDoubleSeconds(limit))}}),
-      absl::Seconds(1));
-}
-
-absl::Status StreamOrderInvalid(std::string_view why) {
-  return MakeError(ErrorReason::kStreamOrderInvalid, std::string(why));
-}
-
 }  // namespace argmesh

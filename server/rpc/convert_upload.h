@@ -30,11 +30,6 @@ absl::StatusOr<AnnouncedShape> FromProto(const v1::UploadShapeHeader& header);
 absl::StatusOr<AnnouncedShape> FromProto(std::string_view collection,
                                          const v1::IngestItem& item);
 
-// STREAM_IDLE: the peer said nothing for `limit`.
-absl::Status StreamIdle(absl::Duration limit);
-// STREAM_ORDER_INVALID.
-absl::Status StreamOrderInvalid(std::string_view why);
-
 }  // namespace argmesh
 
 #endif  // ARGMESH_SERVER_RPC_CONVERT_UPLOAD_H_

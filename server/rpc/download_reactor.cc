@@ -9,19 +9,16 @@
 namespace argmesh {
 
 DownloadReactor::DownloadReactor(ServiceEnvironment& environment,
-                                 grpc::CallbackServerContext* context,
-                                 const v1::DownloadMeshRequest* request)
-    : WritingReactor(environment, context, request,
-                     "ShapeService.DownloadMesh"),
-      request_(request) {}
+                                 grpc::CallbackServerContext* context)
+    : WritingReactor(environment, context, "ShapeService.DownloadMesh") {}
 
-void DownloadReactor::Begin() {
+void DownloadReactor::Requested(const v1::DownloadMeshRequest& request) {
+  name_ = request.name();
   Run(WorkClass::kQuick, [this] { SendNext(); });
 }
 
 absl::Status DownloadReactor::Open(v1::DownloadMeshResponse& first) {
-  ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
-                           ParseShapeName("name", request_->name()));
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape, ParseShapeName("name", name_));
   ARGMESH_ASSIGN_OR_RETURN(ShapeRecord record, engine().GetShape(shape));
   // A shape may be replaced between the two reads: the header must be that of
   // the bytes.

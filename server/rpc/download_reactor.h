@@ -3,27 +3,32 @@
 #define ARGMESH_SERVER_RPC_DOWNLOAD_REACTOR_H_
 
 #include <memory>
+#include <string>
 
 #include "argmesh/v1/shape_service.pb.h"
+#include "server/rpc/request_reactor.h"
 #include "server/rpc/writing_reactor.h"
 
 namespace argmesh {
 
-class DownloadReactor final : public WritingReactor<v1::DownloadMeshResponse> {
+class DownloadReactor final
+    : public WritingReactor<
+          v1::DownloadMeshResponse,
+          RequestReactor<grpc::ServerBidiReactor<v1::DownloadMeshRequest,
+                                                 v1::DownloadMeshResponse>,
+                         v1::DownloadMeshRequest>> {
  public:
-  // gRPC keeps `request` as long as the call.
   DownloadReactor(ServiceEnvironment& environment,
-                  grpc::CallbackServerContext* context,
-                  const v1::DownloadMeshRequest* request);
+                  grpc::CallbackServerContext* context);
 
  protected:
-  void Begin() override;
+  void Requested(const v1::DownloadMeshRequest& request) override;
   absl::StatusOr<bool> Continue(v1::DownloadMeshResponse& next) override;
 
  private:
   absl::Status Open(v1::DownloadMeshResponse& first);
 
-  const v1::DownloadMeshRequest* const request_;
+  std::string name_;  // of what is asked for
   std::unique_ptr<MeshReader> reader_;
 };
 

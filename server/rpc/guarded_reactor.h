@@ -7,11 +7,11 @@
 // reach the StopToken; telemetry learns how the call ended; and the reactor
 // lives as long as gRPC or a task on a pool needs it.
 //
-//   class DownloadReactor : public GuardedReactor<grpc::ServerWriteReactor<R>>
-//   return StartReactor<DownloadReactor>(environment, context, request, ...);
+//   class CountReactor : public GuardedReactor<grpc::ServerWriteReactor<R>>
+//   return StartReactor<CountReactor>(environment, context);
 //
-// `request` is null only where the client streams: ReadingReactor then checks
-// every message.
+// No message is there yet when a call begins: ReadingReactor checks the rights
+// to each that comes.
 //
 // A subclass overrides Begin and the protected reactions of its kind; all run
 // outside the lock. After FinishOnce it starts nothing more.
@@ -40,18 +40,15 @@ class GuardedReactor
       public std::enable_shared_from_this<GuardedReactor<Base>> {
  public:
   GuardedReactor(ServiceEnvironment& environment,
-                 grpc::CallbackServerContext* context,
-                 const google::protobuf::Message* request, const char* method)
-      : held_(environment.calls),
-        request_(request),
-        scope_(environment, context, method) {}
+                 grpc::CallbackServerContext* context, const char* method)
+      : held_(environment.calls), scope_(environment, context, method) {}
 
   // Called once, by StartReactor.
   void Enter() {
     self_ = this->shared_from_this();
     Guard([this] {
       absl::Status status = environment().calls.Enter(this);
-      status.Update(scope_.Authorize(request_));
+      status.Update(scope_.Authorize());
       if (status.ok()) {
         Begin();
       } else {
@@ -66,7 +63,8 @@ class GuardedReactor
   }
 
   void OnDone() final {
-    environment().unread.Remove(this);
+    environment().answers.Remove(this);
+    environment().requests.Remove(this);
     environment().calls.Leave(this);
     self_.reset();  // may delete this
   }
@@ -74,8 +72,8 @@ class GuardedReactor
  protected:
   // The call's first step.
   virtual void Begin() = 0;
-  // The call is about to be ended with `status`.
-  virtual void Finishing(const absl::Status&) {}
+  // Hands the call's end to gRPC. Once, by FinishOnce.
+  virtual void End(const grpc::Status& status) { this->Finish(status); }
   // The caller went away, or the deadline passed. stop() says so already.
   virtual void Cancelled() {}
 
@@ -92,8 +90,7 @@ class GuardedReactor
     // Before the client can know: its next call must not be refused for this
     // one.
     ReleaseTicket();
-    Finishing(status);
-    this->Finish(scope_.Report(status));
+    End(scope_.Report(status));
   }
 
   // Takes a place of its class until the call is finished; ends the call and
@@ -188,7 +185,6 @@ class GuardedReactor
   };
 
   const Held held_;
-  const google::protobuf::Message* const request_;
   CallScope scope_;
   Admission::Ticket ticket_;              // with the scope's mutex
   std::vector<PoolStep> waiting_;         // with the scope's mutex

@@ -25,12 +25,6 @@ v1::IngestShapesResponse CreditOf(int64_t items, int64_t bytes) {
   return message;
 }
 
-absl::Status Draining() {
-  return WithRetryDelay(
-      MakeError(ErrorReason::kDraining, "the server is going down"),
-      absl::Seconds(1));
-}
-
 absl::Status Incomplete(int64_t announced, int64_t received) {
   return MakeError(
       ErrorReason::kMeshSizeMismatch,
@@ -43,8 +37,7 @@ absl::Status Incomplete(int64_t announced, int64_t received) {
 
 IngestReactor::IngestReactor(ServiceEnvironment& environment,
                              grpc::CallbackServerContext* context)
-    : ReadingReactor(environment, context, nullptr,
-                     "IngestService.IngestShapes") {}
+    : ReadingReactor(environment, context, "IngestService.IngestShapes") {}
 
 void IngestReactor::Begin() {
   if (AdmitTo(environment().ingests)) StartNextRead();
@@ -132,7 +125,7 @@ absl::Status IngestReactor::BeginItem(const v1::IngestItem& item) {
 
 absl::Status IngestReactor::TakeCredit(const v1::IngestItem& item) {
   const std::lock_guard lock(scope().mutex());
-  if (draining_) return Draining();
+  if (draining_) return ServerDraining();
   if (credit_items_ < 1 || credit_bytes_ < 1) {
     return MakeError(ErrorReason::kCreditExceeded,
                      absl::StrFormat("an item was begun with credit for %d "
@@ -282,21 +275,18 @@ void IngestReactor::Send(v1::IngestShapesResponse message) {
 }
 
 void IngestReactor::StartNextWrite() {
-  if (scope().finished() || outbox_.empty() ||
-      writing_since_ != absl::InfiniteFuture()) {
-    return;
-  }
-  writing_ = std::move(outbox_.front());
+  if (scope().finished() || outbox_.empty() || writing_.pending()) return;
+  message_ = std::move(outbox_.front());
   outbox_.pop_front();
-  writing_since_ = absl::Now();
-  StartWrite(&writing_);
+  writing_.Begin();
+  StartWrite(&message_);
 }
 
 void IngestReactor::OnWriteDone(bool ok) {
   Guard([&] {
     {
       const std::lock_guard lock(scope().mutex());
-      writing_since_ = absl::InfiniteFuture();
+      writing_.End();
       if (ok) StartNextWrite();
     }
     if (ok) {
@@ -312,10 +302,10 @@ void IngestReactor::FinishWhenDone() {
   absl::Status end;
   {
     const std::lock_guard lock(scope().mutex());
-    const bool idle = open_items_ == 0 && outbox_.empty() &&
-                      writing_since_ == absl::InfiniteFuture();
+    const bool idle =
+        open_items_ == 0 && outbox_.empty() && !writing_.pending();
     if (!idle || !(reads_ended_ || draining_)) return;
-    end = reads_ended_ ? end_ : Draining();
+    end = reads_ended_ ? end_ : ServerDraining();
   }
   FinishOnce(end);
 }
@@ -330,7 +320,7 @@ void IngestReactor::OnTick(absl::Time now) {
     const std::lock_guard lock(scope().mutex());
     // A write that nobody takes blocks the end of the call too: only a
     // cancellation gets through.
-    if (now - writing_since_ > limit) scope().context()->TryCancel();
+    if (writing_.Lasted(now) > limit) scope().context()->TryCancel();
     idle = computing_ == 0 && ready_.empty() && Silence(now) > limit;
   }
   if (idle) FinishOnce(StreamIdle(limit));

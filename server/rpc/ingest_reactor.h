@@ -83,8 +83,8 @@ class IngestReactor final
   bool reads_ended_ = false;
   absl::Status end_;  // of the call, once everything is done
   std::deque<v1::IngestShapesResponse> outbox_;
-  v1::IngestShapesResponse writing_;
-  absl::Time writing_since_ = absl::InfiniteFuture();
+  v1::IngestShapesResponse message_;  // being written
+  PeerWait writing_;
 };
 
 }  // namespace argmesh

@@ -6,16 +6,16 @@
 #include "server/rpc/convert_shape.h"
 #include "server/rpc/ingest_reactor.h"
 #include "server/rpc/resource_name.h"
-#include "server/rpc/unary_reactor.h"
 
 namespace argmesh {
 namespace {
 
 constexpr char kImportMethod[] = "IngestService.ImportShapes";
 
-absl::Status StartImport(ServiceEnvironment& environment,
-                         const v1::ImportShapesRequest& request,
-                         google::longrunning::Operation* response) {
+absl::Status ImportShapes(const UnaryCall& call,
+                          const v1::ImportShapesRequest& request,
+                          google::longrunning::Operation* response) {
+  ServiceEnvironment& environment = call.environment;
   FolderImport folder;
   ARGMESH_ASSIGN_OR_RETURN(folder.collection,
                            ParseCollectionName("parent", request.parent()));
@@ -44,20 +44,10 @@ absl::Status StartImport(ServiceEnvironment& environment,
 
 }  // namespace
 
-grpc::ServerBidiReactor<v1::IngestShapesRequest, v1::IngestShapesResponse>*
-IngestServiceImpl::IngestShapes(grpc::CallbackServerContext* context) {
-  return StartReactor<IngestReactor>(environment_, context);
-}
-
-grpc::ServerUnaryReactor* IngestServiceImpl::ImportShapes(
-    grpc::CallbackServerContext* context,
-    const v1::ImportShapesRequest* request,
-    google::longrunning::Operation* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response}, {kImportMethod},
-      [this, request, response](const UnaryCall&) {
-        return StartImport(environment_, *request, response);
-      });
+IngestServiceImpl::IngestServiceImpl(ServiceEnvironment& environment)
+    : RpcService(environment) {
+  Stream<IngestReactor>("IngestService.IngestShapes");
+  Unary({kImportMethod}, ImportShapes);
 }
 
 }  // namespace argmesh

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
-#include "server/rpc/convert_upload.h"
 #include "server/rpc/reading_reactor.h"
+#include "server/rpc/status.h"
 
 namespace argmesh {
 
@@ -29,8 +29,7 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
   MeshStreamReactor(ServiceEnvironment& environment,
                     grpc::CallbackServerContext* context,
                     const MeshStreamPlan& plan)
-      : ReadingReactor<Base, Request>(environment, context, nullptr,
-                                      plan.method),
+      : ReadingReactor<Base, Request>(environment, context, plan.method),
         plan_(plan) {}
 
   void OnTick(absl::Time now) override {

@@ -188,6 +188,11 @@ std::vector<Operation> OperationRegistry::List(std::string_view after_id,
   return operations;
 }
 
+int OperationRegistry::running() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<int>(running_.size());
+}
+
 void OperationRegistry::CancelAll() {
   const std::lock_guard lock(mutex_);
   for (const auto& entry : running_) entry->stop.request_stop();

@@ -56,6 +56,7 @@ class OperationRegistry {
                                                    int limit) const;
 
   void CancelAll();
+  int running() const;
 
  private:
   struct Entry {

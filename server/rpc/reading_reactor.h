@@ -4,32 +4,39 @@
 #ifndef ARGMESH_SERVER_RPC_READING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_READING_REACTOR_H_
 
-#include <atomic>
-#include <cstdint>
+#include <memory>
 #include <mutex>
+#include <utility>
 
-#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "server/rpc/guarded_reactor.h"
+#include "server/rpc/peer_wait.h"
 
 namespace argmesh {
 
-// `Base` is grpc::ServerReadReactor<Request> or a ServerBidiReactor.
+// `Base` is grpc::ServerReadReactor<Request> or a ServerBidiReactor; `Request`
+// may be google::protobuf::Message.
 template <typename Base, typename Request>
 class ReadingReactor : public GuardedReactor<Base> {
  public:
-  using GuardedReactor<Base>::GuardedReactor;
+  // Messages are read into `message`.
+  ReadingReactor(ServiceEnvironment& environment,
+                 grpc::CallbackServerContext* context, const char* method,
+                 std::unique_ptr<Request> message = std::make_unique<Request>())
+      : GuardedReactor<Base>(environment, context, method),
+        message_(std::move(message)) {}
 
   void OnReadDone(bool ok) final {
-    reading_since_.store(kNotReading);
+    reading_.End();
     this->Guard([&] {
       if (!ok) {
         ReadsEnded();
-      } else if (absl::Status status = this->scope().AuthorizeMessage(request_);
+      } else if (absl::Status status =
+                     this->scope().AuthorizeMessage(*message_);
                  !status.ok()) {
         this->FinishOnce(status);
       } else {
-        Received(request_);
+        Received(*message_);
       }
     });
   }
@@ -44,23 +51,17 @@ class ReadingReactor : public GuardedReactor<Base> {
   void StartNextRead() {
     const std::lock_guard lock(this->scope().mutex());
     if (this->scope().finished()) return;
-    request_.Clear();
-    reading_since_.store(absl::ToUnixMillis(absl::Now()));
-    this->StartRead(&request_);
+    message_->Clear();
+    reading_.Begin();
+    this->StartRead(message_.get());
   }
 
   // How long the client has been silent while a message of it was waited for.
-  absl::Duration Silence(absl::Time now) const {
-    const int64_t since = reading_since_.load();
-    return since == kNotReading ? absl::ZeroDuration()
-                                : now - absl::FromUnixMillis(since);
-  }
+  absl::Duration Silence(absl::Time now) const { return reading_.Lasted(now); }
 
  private:
-  static constexpr int64_t kNotReading = -1;
-
-  Request request_;
-  std::atomic<int64_t> reading_since_{kNotReading};
+  const std::unique_ptr<Request> message_;
+  PeerWait reading_;
 };
 
 }  // namespace argmesh

@@ -227,6 +227,8 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
               {{"version", environment_.version}});
   sheet.Gauge("argmesh_calls_in_flight", "Calls that have not ended.",
               environment_.calls.in_flight());
+  sheet.Gauge("argmesh_operations_running", "Operations that have not ended.",
+              environment_.operations.running());
   sheet.Gauge("argmesh_draining", "1 once the server is going down.",
               environment_.calls.draining() ? 1 : 0);
   sheet.Counter("argmesh_connections_refused_total",
@@ -234,10 +236,16 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
                 static_cast<double>(acceptor_.refused()));
   sheet.Gauge("argmesh_unread_answer_bytes",
               "Of answers that are made and not taken.",
-              static_cast<double>(environment_.unread.bytes()));
+              static_cast<double>(environment_.answers.bytes()));
   sheet.Counter("argmesh_unread_answers_cut_total",
                 "Answers that were cut because of the memory they took.",
-                static_cast<double>(environment_.unread.cut()));
+                static_cast<double>(environment_.answers.cut()));
+  sheet.Gauge("argmesh_slow_request_bytes",
+              "Of requests that do not come whole, each as a full message.",
+              static_cast<double>(environment_.requests.bytes()));
+  sheet.Counter("argmesh_slow_requests_cut_total",
+                "Such requests that were cut because there were too many.",
+                static_cast<double>(environment_.requests.cut()));
   for (const Admission* admission :
        {&environment_.searches, &environment_.uploads, &environment_.ingests}) {
     const GaugeSheet::Labels labels = {{"class", admission->what()}};

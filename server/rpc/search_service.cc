@@ -11,7 +11,6 @@
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
 #include "server/rpc/stream_search_reactor.h"
-#include "server/rpc/unary_reactor.h"
 
 namespace argmesh {
 namespace {
@@ -54,17 +53,24 @@ bool IsOwnFailure(const absl::Status& status, const StopToken& stop) {
              ErrorReason::kInternal;
 }
 
-absl::Status BatchSearch(const Engine& engine,
-                         const v1::BatchSearchShapesRequest& request,
-                         const StopToken& stop,
-                         v1::BatchSearchShapesResponse* response) {
+absl::Status SearchShapes(const UnaryCall& call,
+                          const v1::SearchShapesRequest& request,
+                          v1::SearchShapesResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(*response, Search(call.environment.engine, request,
+                                             kMaxAnswerBytes, call.stop));
+  return absl::OkStatus();
+}
+
+absl::Status BatchSearchShapes(const UnaryCall& call,
+                               const v1::BatchSearchShapesRequest& request,
+                               v1::BatchSearchShapesResponse* response) {
   ARGMESH_RETURN_IF_ERROR(CheckBatch(request));
   int64_t bytes_left = kMaxAnswerBytes;
   for (int i = 0; i < request.requests_size(); ++i) {
     v1::SearchShapesRequest search = request.requests(i);
     search.set_parent(request.parent());
     const int64_t share = bytes_left / (request.requests_size() - i);
-    auto found = Search(engine, search, share, stop);
+    auto found = Search(call.environment.engine, search, share, call.stop);
     if (found.ok() && static_cast<int64_t>(found->ByteSizeLong()) > share) {
       found = MakeError(ErrorReason::kResponseTooLarge,
                         "the answer does not fit beside those of the others");
@@ -72,22 +78,24 @@ absl::Status BatchSearch(const Engine& engine,
     v1::SearchShapesResponse& added = *response->add_responses();
     if (found.ok()) {
       added = *std::move(found);
-    } else if (IsOwnFailure(found.status(), stop)) {
+    } else if (IsOwnFailure(found.status(), call.stop)) {
       (*response->mutable_failed_requests())[i] = ToProtoStatus(found.status());
     } else {
-      return stop.Check().ok() ? found.status() : stop.Check();
+      const absl::Status stopped = call.stop.Check();
+      return stopped.ok() ? found.status() : stopped;
     }
     bytes_left -= static_cast<int64_t>(added.ByteSizeLong());
   }
   return absl::OkStatus();
 }
 
-absl::Status Compare(Engine& engine, const v1::CompareShapesRequest& request,
-                     const StopToken& stop,
-                     v1::CompareShapesResponse* response) {
+absl::Status CompareShapes(const UnaryCall& call,
+                           const v1::CompareShapesRequest& request,
+                           v1::CompareShapesResponse* response) {
+  Engine& engine = call.environment.engine;
   ARGMESH_ASSIGN_OR_RETURN(const CompareQuery query, FromProto(request));
   ARGMESH_ASSIGN_OR_RETURN(const ComparedShapes compared,
-                           engine.Compare(query, stop));
+                           engine.Compare(query, call.stop));
   *response = ToProto(compared, {.mode = query.mode,
                                  .explain = request.explain(),
                                  .max_bytes = kMaxAnswerBytes});
@@ -101,52 +109,15 @@ absl::Status Compare(Engine& engine, const v1::CompareShapesRequest& request,
 
 }  // namespace
 
-grpc::ServerUnaryReactor* SearchServiceImpl::SearchShapes(
-    grpc::CallbackServerContext* context,
-    const v1::SearchShapesRequest* request,
-    v1::SearchShapesResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response},
-      {"SearchService.SearchShapes", WorkClass::kSearch,
-       &environment_.searches},
-      [this, request, response](const UnaryCall& call) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(
-            *response,
-            Search(environment_.engine, *request, kMaxAnswerBytes, call.stop));
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerBidiReactor<v1::StreamSearchShapesRequest,
-                        v1::StreamSearchShapesResponse>*
-SearchServiceImpl::StreamSearchShapes(grpc::CallbackServerContext* context) {
-  return StartReactor<StreamSearchReactor>(environment_, context);
-}
-
-grpc::ServerUnaryReactor* SearchServiceImpl::BatchSearchShapes(
-    grpc::CallbackServerContext* context,
-    const v1::BatchSearchShapesRequest* request,
-    v1::BatchSearchShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"SearchService.BatchSearchShapes",
-                              WorkClass::kSearch, &environment_.searches},
-                             [this, request, response](const UnaryCall& call) {
-                               return BatchSearch(environment_.engine, *request,
-                                                  call.stop, response);
-                             });
-}
-
-grpc::ServerUnaryReactor* SearchServiceImpl::CompareShapes(
-    grpc::CallbackServerContext* context,
-    const v1::CompareShapesRequest* request,
-    v1::CompareShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"SearchService.CompareShapes", WorkClass::kSearch,
-                              &environment_.searches},
-                             [this, request, response](const UnaryCall& call) {
-                               return Compare(environment_.engine, *request,
-                                              call.stop, response);
-                             });
+SearchServiceImpl::SearchServiceImpl(ServiceEnvironment& environment)
+    : RpcService(environment) {
+  const auto search = [&environment](const char* method) {
+    return UnaryPlan{method, WorkClass::kSearch, &environment.searches};
+  };
+  Unary(search("SearchService.SearchShapes"), SearchShapes);
+  Stream<StreamSearchReactor>("SearchService.StreamSearchShapes");
+  Unary(search("SearchService.BatchSearchShapes"), BatchSearchShapes);
+  Unary(search("SearchService.CompareShapes"), CompareShapes);
 }
 
 }  // namespace argmesh

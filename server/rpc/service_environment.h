@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
 #include "server/engine/request_rules.h"
@@ -14,7 +15,7 @@
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
 #include "server/rpc/operation_registry.h"
-#include "server/rpc/unread_answers.h"
+#include "server/rpc/peer_budget.h"
 #include "server/telemetry/telemetry.h"
 
 namespace argmesh {
@@ -23,8 +24,10 @@ namespace argmesh {
 inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
 
-// Of all answers together that are made and not taken.
+// Of all answers together that are made and not taken; of all requests that do
+// not come whole promptly, each counted as a full message.
 inline constexpr int64_t kMaxUnreadBytes = 128 << 20;
+inline constexpr int64_t kMaxSlowRequestBytes = 256 << 20;
 
 inline constexpr int kMaxPageSize = 1000;
 inline constexpr int kMaxBatchSearches = 100;
@@ -33,7 +36,7 @@ struct ServiceLimits {
   int max_inflight_searches = 64;  // >= 1; also comparisons
   int max_inflight_uploads = 32;   // >= 1; CreateShape and UploadShape
   int max_inflight_ingests = 8;    // >= 1; streams
-  // A stream whose peer sends or takes nothing for so long ends; > 0.
+  // A call whose peer sends or takes no message for so long ends; > 0.
   absl::Duration stream_idle_timeout = absl::Seconds(60);
   // What an ingest stream may have under way; each >= 1.
   int ingest_credit_items = 16;
@@ -68,13 +71,15 @@ struct ServiceEnvironment {
   Engine& engine;
   Telemetry& telemetry;
   const std::string version;
+  const absl::Time start_time = absl::Now();
   const ServiceLimits limits;
   std::atomic<int64_t> stream_idle_ms;  // as `limits`, until SetLimits
   Admission searches;
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
-  UnreadAnswers unread{kMaxUnreadBytes};
+  PeerBudget answers{kMaxUnreadBytes};
+  PeerBudget requests{kMaxSlowRequestBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served
   const ImportSource* import_source = nullptr;  // none: IMPORT_NOT_ENABLED
   OperationRegistry operations;

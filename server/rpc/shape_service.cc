@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "argmesh/v1/shape_service.pb.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
 #include "server/rpc/convert_shape.h"
@@ -15,27 +16,74 @@
 #include "server/rpc/graph_answer.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
-#include "server/rpc/unary_reactor.h"
 #include "server/rpc/upload_reactor.h"
 
 namespace argmesh {
 namespace {
 
-absl::Status List(const Engine& engine, const v1::ListShapesRequest& request,
-                  v1::ListShapesResponse* response) {
+absl::Status CreateShape(const UnaryCall& call,
+                         const v1::CreateShapeRequest& request,
+                         v1::Shape* response) {
+  ARGMESH_ASSIGN_OR_RETURN(NewShape shape, FromProto(request));
+  shape.request.principal = call.caller.principal;
+  ARGMESH_ASSIGN_OR_RETURN(const AddedShape added,
+                           call.environment.engine.AddShape(
+                               shape, request.mesh().data(), call.stop));
+  *response = ToProto(added.record);
+  return absl::OkStatus();
+}
+
+absl::Status GetShape(const UnaryCall& call, const v1::GetShapeRequest& request,
+                      v1::Shape* response) {
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
+                           ParseShapeName("name", request.name()));
+  ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
+                           call.environment.engine.GetShape(shape));
+  *response = ToProto(record);
+  return absl::OkStatus();
+}
+
+absl::Status ListShapes(const UnaryCall& call,
+                        const v1::ListShapesRequest& request,
+                        v1::ListShapesResponse* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::string collection,
                            ParseCollectionName("parent", request.parent()));
   ARGMESH_ASSIGN_OR_RETURN(
       const ShapePage page,
-      engine.ListShapes(collection,
-                        {.page_size = request.page_size(),
-                         .page_token = request.page_token(),
-                         .max_bytes = kMaxAnswerBytes},
-                        request.filter()));
+      call.environment.engine.ListShapes(collection,
+                                         {.page_size = request.page_size(),
+                                          .page_token = request.page_token(),
+                                          .max_bytes = kMaxAnswerBytes},
+                                         request.filter()));
   for (const ShapeRecord& record : page.shapes) {
     *response->add_shapes() = ToProto(record);
   }
   response->set_next_page_token(page.next_page_token);
+  return absl::OkStatus();
+}
+
+absl::Status UpdateShape(const UnaryCall& call,
+                         const v1::UpdateShapeRequest& request,
+                         v1::Shape* response) {
+  ARGMESH_ASSIGN_OR_RETURN(ShapePatch patch, FromProto(request));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const ShapeRecord record,
+      call.environment.engine.UpdateShape(std::move(patch)));
+  *response = ToProto(record);
+  return absl::OkStatus();
+}
+
+absl::Status DeleteShape(const UnaryCall& call,
+                         const v1::DeleteShapeRequest& request,
+                         v1::DeleteShapeResponse* response) {
+  ShapeRemoval removal;
+  ARGMESH_ASSIGN_OR_RETURN(removal.shape,
+                           ParseShapeName("name", request.name()));
+  removal.etag = request.etag();
+  removal.request = {call.caller.principal, request.request_id()};
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
+                           call.environment.engine.DeleteShape(removal));
+  response->set_generation(generation);
   return absl::OkStatus();
 }
 
@@ -61,16 +109,16 @@ absl::StatusOr<std::vector<ShapeRef>> NamedShapes(const Request& request) {
   return shapes;
 }
 
-absl::Status BatchGet(const Engine& engine,
-                      const v1::BatchGetShapesRequest& request,
-                      const StopToken& stop,
-                      v1::BatchGetShapesResponse* response) {
+absl::Status BatchGetShapes(const UnaryCall& call,
+                            const v1::BatchGetShapesRequest& request,
+                            v1::BatchGetShapesResponse* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
                            NamedShapes(request));
   int64_t bytes = 0;
   for (const ShapeRef& shape : shapes) {
-    ARGMESH_RETURN_IF_ERROR(stop.Check());
-    ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record, engine.GetShape(shape));
+    ARGMESH_RETURN_IF_ERROR(call.stop.Check());
+    ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
+                             call.environment.engine.GetShape(shape));
     v1::Shape& added = *response->add_shapes();
     added = ToProto(record);
     bytes += static_cast<int64_t>(added.ByteSizeLong());
@@ -82,10 +130,9 @@ absl::Status BatchGet(const Engine& engine,
   return absl::OkStatus();
 }
 
-absl::Status BatchDelete(Engine& engine,
-                         const v1::BatchDeleteShapesRequest& request,
-                         const StopToken& stop,
-                         v1::BatchDeleteShapesResponse* response) {
+absl::Status BatchDeleteShapes(const UnaryCall& call,
+                               const v1::BatchDeleteShapesRequest& request,
+                               v1::BatchDeleteShapesResponse* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
                            NamedShapes(request));
   std::vector<std::string> ids;
@@ -96,137 +143,37 @@ absl::Status BatchDelete(Engine& engine,
   if (twice != ids.end()) {
     return FieldInvalid("names", *twice + " is named twice");
   }
-  ARGMESH_RETURN_IF_ERROR(stop.Check());
-  ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
-                           engine.DeleteShapes(shapes.front().collection, ids));
+  ARGMESH_RETURN_IF_ERROR(call.stop.Check());
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t generation,
+      call.environment.engine.DeleteShapes(shapes.front().collection, ids));
   response->set_generation(generation);
+  return absl::OkStatus();
+}
+
+absl::Status GetShapeGraph(const UnaryCall& call,
+                           const v1::GetShapeGraphRequest& request,
+                           v1::GetShapeGraphResponse* response) {
+  ARGMESH_ASSIGN_OR_RETURN(*response,
+                           AnswerGraph(call.environment.engine, request));
   return absl::OkStatus();
 }
 
 }  // namespace
 
-grpc::ServerUnaryReactor* ShapeServiceImpl::CreateShape(
-    grpc::CallbackServerContext* context, const v1::CreateShapeRequest* request,
-    v1::Shape* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response},
-      {"ShapeService.CreateShape", WorkClass::kCompute, &environment_.uploads},
-      [this, request, response](const UnaryCall& call) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(NewShape shape, FromProto(*request));
-        shape.request.principal = call.caller.principal;
-        ARGMESH_ASSIGN_OR_RETURN(const AddedShape added,
-                                 environment_.engine.AddShape(
-                                     shape, request->mesh().data(), call.stop));
-        *response = ToProto(added.record);
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerReadReactor<v1::UploadShapeRequest>* ShapeServiceImpl::UploadShape(
-    grpc::CallbackServerContext* context, v1::Shape* response) {
-  return StartReactor<UploadReactor>(environment_, context, response);
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::GetShape(
-    grpc::CallbackServerContext* context, const v1::GetShapeRequest* request,
-    v1::Shape* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response}, {"ShapeService.GetShape"},
-      [this, request, response](const UnaryCall&) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(const ShapeRef shape,
-                                 ParseShapeName("name", request->name()));
-        ARGMESH_ASSIGN_OR_RETURN(const ShapeRecord record,
-                                 environment_.engine.GetShape(shape));
-        *response = ToProto(record);
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::ListShapes(
-    grpc::CallbackServerContext* context, const v1::ListShapesRequest* request,
-    v1::ListShapesResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response}, {"ShapeService.ListShapes"},
-      [this, request, response](const UnaryCall&) {
-        return List(environment_.engine, *request, response);
-      });
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::UpdateShape(
-    grpc::CallbackServerContext* context, const v1::UpdateShapeRequest* request,
-    v1::Shape* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response}, {"ShapeService.UpdateShape"},
-      [this, request, response](const UnaryCall&) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(ShapePatch patch, FromProto(*request));
-        ARGMESH_ASSIGN_OR_RETURN(
-            const ShapeRecord record,
-            environment_.engine.UpdateShape(std::move(patch)));
-        *response = ToProto(record);
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::DeleteShape(
-    grpc::CallbackServerContext* context, const v1::DeleteShapeRequest* request,
-    v1::DeleteShapeResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response}, {"ShapeService.DeleteShape"},
-      [this, request, response](const UnaryCall& call) -> absl::Status {
-        ShapeRemoval removal;
-        ARGMESH_ASSIGN_OR_RETURN(removal.shape,
-                                 ParseShapeName("name", request->name()));
-        removal.etag = request->etag();
-        removal.request = {call.caller.principal, request->request_id()};
-        ARGMESH_ASSIGN_OR_RETURN(const int64_t generation,
-                                 environment_.engine.DeleteShape(removal));
-        response->set_generation(generation);
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::BatchGetShapes(
-    grpc::CallbackServerContext* context,
-    const v1::BatchGetShapesRequest* request,
-    v1::BatchGetShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"ShapeService.BatchGetShapes"},
-                             [this, request, response](const UnaryCall& call) {
-                               return BatchGet(environment_.engine, *request,
-                                               call.stop, response);
-                             });
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::BatchDeleteShapes(
-    grpc::CallbackServerContext* context,
-    const v1::BatchDeleteShapesRequest* request,
-    v1::BatchDeleteShapesResponse* response) {
-  return UnaryReactor::Start(environment_, context, {request, response},
-                             {"ShapeService.BatchDeleteShapes"},
-                             [this, request, response](const UnaryCall& call) {
-                               return BatchDelete(environment_.engine, *request,
-                                                  call.stop, response);
-                             });
-}
-
-grpc::ServerWriteReactor<v1::DownloadMeshResponse>*
-ShapeServiceImpl::DownloadMesh(grpc::CallbackServerContext* context,
-                               const v1::DownloadMeshRequest* request) {
-  return StartReactor<DownloadReactor>(environment_, context, request);
-}
-
-grpc::ServerUnaryReactor* ShapeServiceImpl::GetShapeGraph(
-    grpc::CallbackServerContext* context,
-    const v1::GetShapeGraphRequest* request,
-    v1::GetShapeGraphResponse* response) {
-  return UnaryReactor::Start(
-      environment_, context, {request, response},
-      {"ShapeService.GetShapeGraph"},
-      [this, request, response](const UnaryCall&) -> absl::Status {
-        ARGMESH_ASSIGN_OR_RETURN(*response,
-                                 AnswerGraph(environment_.engine, *request));
-        return absl::OkStatus();
-      });
+ShapeServiceImpl::ShapeServiceImpl(ServiceEnvironment& environment)
+    : RpcService(environment) {
+  Unary({"ShapeService.CreateShape", WorkClass::kCompute, &environment.uploads},
+        CreateShape);
+  Stream<UploadReactor>("ShapeService.UploadShape");
+  Unary({"ShapeService.GetShape"}, GetShape);
+  Unary({"ShapeService.ListShapes"}, ListShapes);
+  Unary({"ShapeService.UpdateShape"}, UpdateShape);
+  Unary({"ShapeService.DeleteShape"}, DeleteShape);
+  Unary({"ShapeService.BatchGetShapes"}, BatchGetShapes);
+  Unary({"ShapeService.BatchDeleteShapes"}, BatchDeleteShapes);
+  Stream<DownloadReactor>("ShapeService.DownloadMesh");
+  Unary({"ShapeService.GetShapeGraph"}, GetShapeGraph);
 }
 
 }  // namespace argmesh

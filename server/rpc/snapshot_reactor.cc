@@ -10,13 +10,11 @@
 namespace argmesh {
 
 SnapshotReactor::SnapshotReactor(ServiceEnvironment& environment,
-                                 grpc::CallbackServerContext* context,
-                                 const v1::DownloadSnapshotRequest* request)
-    : WritingReactor(environment, context, request,
-                     "AdminService.DownloadSnapshot"),
-      request_(request) {}
+                                 grpc::CallbackServerContext* context)
+    : WritingReactor(environment, context, "AdminService.DownloadSnapshot") {}
 
-void SnapshotReactor::Begin() {
+void SnapshotReactor::Requested(const v1::DownloadSnapshotRequest& request) {
+  name_ = request.name();
   Run(WorkClass::kQuick, [this] { SendNext(); });
 }
 
@@ -24,7 +22,7 @@ absl::Status SnapshotReactor::Open(v1::DownloadSnapshotResponse& first) {
   StoreAdmin* store = environment().store_admin;
   if (store == nullptr) return MethodNotServed("AdminService.DownloadSnapshot");
   ARGMESH_ASSIGN_OR_RETURN(const std::string id,
-                           ParseSnapshotName("name", request_->name()));
+                           ParseSnapshotName("name", name_));
   ARGMESH_ASSIGN_OR_RETURN(reader_, store->OpenSnapshot(id));
   *first.mutable_snapshot() = ToProto(reader_->record());
   return absl::OkStatus();

@@ -3,28 +3,32 @@
 #define ARGMESH_SERVER_RPC_SNAPSHOT_REACTOR_H_
 
 #include <memory>
+#include <string>
 
 #include "argmesh/v1/admin_service.pb.h"
+#include "server/rpc/request_reactor.h"
 #include "server/rpc/writing_reactor.h"
 
 namespace argmesh {
 
 class SnapshotReactor final
-    : public WritingReactor<v1::DownloadSnapshotResponse> {
+    : public WritingReactor<
+          v1::DownloadSnapshotResponse,
+          RequestReactor<grpc::ServerBidiReactor<v1::DownloadSnapshotRequest,
+                                                 v1::DownloadSnapshotResponse>,
+                         v1::DownloadSnapshotRequest>> {
  public:
-  // gRPC keeps `request` as long as the call.
   SnapshotReactor(ServiceEnvironment& environment,
-                  grpc::CallbackServerContext* context,
-                  const v1::DownloadSnapshotRequest* request);
+                  grpc::CallbackServerContext* context);
 
  protected:
-  void Begin() override;
+  void Requested(const v1::DownloadSnapshotRequest& request) override;
   absl::StatusOr<bool> Continue(v1::DownloadSnapshotResponse& next) override;
 
  private:
   absl::Status Open(v1::DownloadSnapshotResponse& first);
 
-  const v1::DownloadSnapshotRequest* const request_;
+  std::string name_;  // of what is asked for
   std::unique_ptr<SnapshotReader> reader_;
 };
 

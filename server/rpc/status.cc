@@ -181,4 +181,31 @@ absl::Status FieldRequired(std::string_view field) {
                    {{"field", std::string(field)}});
 }
 
+absl::Status StreamIdle(absl::Duration limit) {
+  return WithRetryDelay(
+      MakeError(
+          ErrorReason::kStreamIdle,
+          absl::StrFormat("nothing came for %s", absl::FormatDuration(limit)),
+          {{"limit_seconds", absl::StrCat(absl::ToDoubleSeconds(limit))}}),
+      absl::Seconds(1));
+}
+
+absl::Status StreamOrderInvalid(std::string_view why) {
+  return MakeError(ErrorReason::kStreamOrderInvalid, std::string(why));
+}
+
+absl::Status TooManySlowRequests() {
+  return WithRetryDelay(
+      MakeError(ErrorReason::kOverloaded,
+                "too many requests that do not come whole; this connection has "
+                "the most of them"),
+      absl::Seconds(1));
+}
+
+absl::Status ServerDraining() {
+  return WithRetryDelay(
+      MakeError(ErrorReason::kDraining, "the server is going down"),
+      absl::Seconds(1));
+}
+
 }  // namespace argmesh

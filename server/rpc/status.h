@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "absl/status/status.h"
+#include "absl/time/time.h"
 #include "google/rpc/status.pb.h"
 
 namespace argmesh {
@@ -30,6 +31,15 @@ absl::Status MethodNotServed(std::string_view method);
 // kInvalidArgument FIELD_INVALID and FIELD_REQUIRED with metadata `field`.
 absl::Status FieldInvalid(std::string_view field, std::string_view why);
 absl::Status FieldRequired(std::string_view field);
+
+// STREAM_IDLE: the peer said nothing for `limit`.
+absl::Status StreamIdle(absl::Duration limit);
+// STREAM_ORDER_INVALID.
+absl::Status StreamOrderInvalid(std::string_view why);
+// OVERLOADED, for a request that has not come whole.
+absl::Status TooManySlowRequests();
+// DRAINING.
+absl::Status ServerDraining();
 
 }  // namespace argmesh
 

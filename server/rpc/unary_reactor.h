@@ -1,21 +1,12 @@
 // A call with one request and one response whose body runs on the pool.
-//
-//   return UnaryReactor::Start(environment, context, {request, response},
-//                              {"ShapeService.GetShape", WorkClass::kQuick},
-//                              [=](const UnaryCall& call) { ... });
-//
-// gRPC keeps request and response alive until the call is done: a caller that
-// does not take its answer within the stream idle timeout, or whose answers
-// take the memory of others (unread_answers.h), is cut.
 #ifndef ARGMESH_SERVER_RPC_UNARY_REACTOR_H_
 #define ARGMESH_SERVER_RPC_UNARY_REACTOR_H_
 
-#include <atomic>
-#include <cstdint>
 #include <functional>
-#include <utility>
+#include <memory>
 
-#include "server/rpc/guarded_reactor.h"
+#include "server/rpc/answering_reactor.h"
+#include "server/rpc/request_reactor.h"
 
 namespace argmesh {
 
@@ -25,51 +16,41 @@ struct UnaryPlan {
   Admission* admission = nullptr;  // none: not limited
 };
 
-struct UnaryMessages {
-  const google::protobuf::Message* request;
-  const google::protobuf::Message* response;
-};
-
 // What the body of a call is given beside its messages.
 struct UnaryCall {
+  ServiceEnvironment& environment;
   const StopToken& stop;
   const Caller& caller;
 };
 
-class UnaryReactor final : public GuardedReactor<grpc::ServerUnaryReactor> {
- public:
+struct UnaryMethod {
   using Message = google::protobuf::Message;
+
+  UnaryPlan plan;
+  const Message& request;   // empty, of the type that is read
+  const Message& response;  // empty, of the type that is answered
   // Fills the response; its status ends the call.
-  using Body = std::function<absl::Status(const UnaryCall&)>;
+  std::function<absl::Status(const UnaryCall&, const Message& request,
+                             Message* response)>
+      body;
+};
 
-  static grpc::ServerUnaryReactor* Start(ServiceEnvironment& environment,
-                                         grpc::CallbackServerContext* context,
-                                         const UnaryMessages& messages,
-                                         const UnaryPlan& plan, Body body);
-
-  // Ends the call with METHOD_NOT_SERVED.
-  static grpc::ServerUnaryReactor* NotServed(
-      ServiceEnvironment& environment, grpc::CallbackServerContext* context,
-      const Message* request, const char* method);
-
+class UnaryReactor final
+    : public AnsweringReactor<
+          UnaryMethod::Message,
+          RequestReactor<grpc::ServerBidiReactor<UnaryMethod::Message,
+                                                 UnaryMethod::Message>,
+                         UnaryMethod::Message>> {
+ public:
+  // `method` must outlive the call.
   UnaryReactor(ServiceEnvironment& environment,
-               grpc::CallbackServerContext* context,
-               const UnaryMessages& messages, const UnaryPlan& plan, Body body);
-
-  void OnTick(absl::Time now) override;
-  void OnNotTaken() override;
+               grpc::CallbackServerContext* context, const UnaryMethod& method);
 
  protected:
-  void Begin() override;
-  void Finishing(const absl::Status& status) override;
+  void Requested(const UnaryMethod::Message& request) override;
 
  private:
-  static constexpr int64_t kNotAnswered = -1;
-
-  const Message* const response_;  // null: never filled
-  const UnaryPlan plan_;
-  const Body body_;
-  std::atomic<int64_t> answered_ms_{kNotAnswered};
+  const UnaryMethod& method_;
 };
 
 }  // namespace argmesh

@@ -4,16 +4,16 @@
 
 #include "core/base/status_macros.h"
 #include "server/rpc/convert_shape.h"
+#include "server/rpc/convert_upload.h"
 
 namespace argmesh {
 
 UploadReactor::UploadReactor(ServiceEnvironment& environment,
-                             grpc::CallbackServerContext* context,
-                             v1::Shape* response)
-    : MeshStreamReactor(environment, context,
-                        {"ShapeService.UploadShape", WorkClass::kCompute,
-                         environment.uploads}),
-      response_(response) {}
+                             grpc::CallbackServerContext* context)
+    : AnsweringReactor(
+          std::make_unique<v1::Shape>(), environment, context,
+          MeshStreamPlan{"ShapeService.UploadShape", WorkClass::kCompute,
+                         environment.uploads}) {}
 
 absl::StatusOr<UploadAnnouncement> UploadReactor::Announced(
     const v1::UploadShapeRequest& first) {
@@ -29,7 +29,7 @@ absl::StatusOr<UploadAnnouncement> UploadReactor::Announced(
 absl::Status UploadReactor::Take(std::unique_ptr<StagedMesh> mesh) {
   ARGMESH_ASSIGN_OR_RETURN(const AddedShape added,
                            engine().AddShape(shape_, std::move(mesh), stop()));
-  *response_ = ToProto(added.record);
+  response() = ToProto(added.record);
   FinishOnce(absl::OkStatus());
   return absl::OkStatus();
 }

@@ -5,16 +5,19 @@
 #include <memory>
 
 #include "argmesh/v1/shape_service.pb.h"
+#include "server/rpc/answering_reactor.h"
 #include "server/rpc/mesh_stream_reactor.h"
 
 namespace argmesh {
 
 class UploadReactor final
-    : public MeshStreamReactor<grpc::ServerReadReactor<v1::UploadShapeRequest>,
-                               v1::UploadShapeRequest> {
+    : public AnsweringReactor<
+          v1::Shape, MeshStreamReactor<grpc::ServerBidiReactor<
+                                           v1::UploadShapeRequest, v1::Shape>,
+                                       v1::UploadShapeRequest>> {
  public:
   UploadReactor(ServiceEnvironment& environment,
-                grpc::CallbackServerContext* context, v1::Shape* response);
+                grpc::CallbackServerContext* context);
 
  protected:
   absl::StatusOr<UploadAnnouncement> Announced(
@@ -22,7 +25,6 @@ class UploadReactor final
   absl::Status Take(std::unique_ptr<StagedMesh> mesh) override;
 
  private:
-  v1::Shape* const response_;
   NewShape shape_;
 };
 

@@ -13,17 +13,15 @@ constexpr absl::Duration kMargin = absl::Milliseconds(200);
 
 }  // namespace
 
-WaitReactor::WaitReactor(
-    ServiceEnvironment& environment, grpc::CallbackServerContext* context,
-    const google::longrunning::WaitOperationRequest* request,
-    google::longrunning::Operation* response)
-    : GuardedReactor(environment, context, request, "Operations.WaitOperation"),
-      request_(request),
-      response_(response) {}
+WaitReactor::WaitReactor(ServiceEnvironment& environment,
+                         grpc::CallbackServerContext* context)
+    : AnsweringReactor(std::make_unique<google::longrunning::Operation>(),
+                       environment, context, "Operations.WaitOperation") {}
 
-void WaitReactor::Begin() {
+void WaitReactor::Requested(
+    const google::longrunning::WaitOperationRequest& request) {
   const absl::StatusOr<std::string> id =
-      ParseOperationName("name", request_->name());
+      ParseOperationName("name", request.name());
   if (!id.ok()) {
     FinishOnce(id.status());
     return;
@@ -33,9 +31,9 @@ void WaitReactor::Begin() {
     const std::lock_guard lock(look_mutex_);
     id_ = *id;
     end_ = scope().deadline() - kMargin;
-    if (request_->has_timeout()) {
-      end_ = std::min(end_, now + absl::Seconds(request_->timeout().seconds()) +
-                                absl::Nanoseconds(request_->timeout().nanos()));
+    if (request.has_timeout()) {
+      end_ = std::min(end_, now + absl::Seconds(request.timeout().seconds()) +
+                                absl::Nanoseconds(request.timeout().nanos()));
     }
   }
   Look(now);
@@ -51,16 +49,18 @@ void WaitReactor::Look(absl::Time now) {
     if (operation.ok() && !operation->done() && now < end_) return;
     answered_ = true;
     status = operation.status();
-    if (operation.ok()) *response_ = *std::move(operation);
+    if (operation.ok()) response() = *std::move(operation);
   }
   FinishOnce(status);  // without the lock: it may be the end of this object
 }
 
 void WaitReactor::OnTick(absl::Time now) {
+  AnsweringReactor::OnTick(now);
   Guard([&] { Look(now); });
 }
 
-void WaitReactor::OnDrain(absl::Duration) {
+void WaitReactor::OnDrain(absl::Duration grace) {
+  AnsweringReactor::OnDrain(grace);
   Guard([this] { Look(absl::InfiniteFuture()); });
 }
 

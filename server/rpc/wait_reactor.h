@@ -9,34 +9,37 @@
 #include <string>
 
 #include "google/longrunning/operations.pb.h"
-#include "server/rpc/guarded_reactor.h"
+#include "server/rpc/answering_reactor.h"
+#include "server/rpc/request_reactor.h"
 
 namespace argmesh {
 
-class WaitReactor final : public GuardedReactor<grpc::ServerUnaryReactor> {
+class WaitReactor final
+    : public AnsweringReactor<
+          google::longrunning::Operation,
+          RequestReactor<
+              grpc::ServerBidiReactor<google::longrunning::WaitOperationRequest,
+                                      google::longrunning::Operation>,
+              google::longrunning::WaitOperationRequest>> {
  public:
-  // gRPC keeps `request` and `response` as long as the call.
   WaitReactor(ServiceEnvironment& environment,
-              grpc::CallbackServerContext* context,
-              const google::longrunning::WaitOperationRequest* request,
-              google::longrunning::Operation* response);
+              grpc::CallbackServerContext* context);
 
   void OnTick(absl::Time now) override;
   void OnDrain(absl::Duration grace) override;
 
  protected:
-  void Begin() override;
+  void Requested(
+      const google::longrunning::WaitOperationRequest& request) override;
   void Cancelled() override;
 
  private:
   // Ends the call when the operation is done or `now` is late enough.
   void Look(absl::Time now);
 
-  const google::longrunning::WaitOperationRequest* const request_;
-  google::longrunning::Operation* const response_;
   std::mutex look_mutex_;  // ticks and the beginning
   bool answered_ = false;
-  std::string id_;  // empty before Begin
+  std::string id_;  // empty before the request is there
   absl::Time end_ = absl::InfiniteFuture();
 };
 

@@ -9,9 +9,9 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "server/rpc/guarded_reactor.h"
+#include "server/rpc/peer_wait.h"
 
 namespace argmesh {
 
@@ -19,18 +19,14 @@ namespace argmesh {
 inline constexpr int64_t kDownloadChunkBytes = 256 << 10;
 
 // `Base` is a GuardedReactor whose calls can write.
-template <typename Response,
-          typename Base = GuardedReactor<grpc::ServerWriteReactor<Response>>>
+template <typename Response, typename Base>
 class WritingReactor : public Base {
  public:
   using Base::Base;
 
   void OnWriteDone(bool ok) final {
     this->Guard([&] {
-      {
-        const std::lock_guard lock(this->scope().mutex());
-        writing_since_ = absl::InfiniteFuture();
-      }
+      writing_.End();
       if (!ok) {
         this->FinishOnce(absl::CancelledError("the client went away"));
         return;
@@ -42,10 +38,9 @@ class WritingReactor : public Base {
   void OnTick(absl::Time now) final {
     Base::OnTick(now);
     this->ResubmitWaiting();
-    const std::lock_guard lock(this->scope().mutex());
     // A write that nobody takes blocks the end of the call too: only a
     // cancellation gets through.
-    if (now - writing_since_ > this->environment().stream_idle_timeout()) {
+    if (writing_.Lasted(now) > this->environment().stream_idle_timeout()) {
       this->scope().context()->TryCancel();
     }
   }
@@ -68,13 +63,12 @@ class WritingReactor : public Base {
   void Send() {
     const std::lock_guard lock(this->scope().mutex());
     if (this->scope().finished()) return;
-    writing_since_ = absl::Now();
+    writing_.Begin();
     this->StartWrite(&response_);
   }
 
   Response response_;
-  // With the scope's mutex: when the write under way began.
-  absl::Time writing_since_ = absl::InfiniteFuture();
+  PeerWait writing_;
 };
 
 }  // namespace argmesh

@@ -185,7 +185,7 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::Write(
     std::string_view id, const fs::path& copy, SqliteConnection& catalog,
     const StopToken& stop) const {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> meshes,
-                           ReadNamedMeshes(catalog));
+                           ReadNamedMeshes(catalog, /*collection=*/""));
   ARGMESH_ASSIGN_OR_RETURN(int64_t bytes, BytesOf(copy));
   for (const NamedMesh& mesh : meshes) bytes += mesh.size_bytes;
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(bytes));
@@ -277,7 +277,7 @@ absl::Status SnapshotDirectory::DeleteSnapshot(std::string_view id) {
 }
 
 absl::StatusOr<StorageReport> SnapshotDirectory::Verify(
-    const StopToken& stop) const {
+    std::string_view collection, const StopToken& stop) const {
   const MeshPin hold = meshes_.HoldRemovals();
   ARGMESH_ASSIGN_OR_RETURN(
       const std::unique_ptr<SqliteConnection> connection,
@@ -286,7 +286,7 @@ absl::StatusOr<StorageReport> SnapshotDirectory::Verify(
   // One state of the catalog throughout.
   ARGMESH_RETURN_IF_ERROR(connection->Execute("BEGIN"));
   absl::StatusOr<StorageReport> report =
-      CheckStorage(*connection, meshes_, stop);
+      CheckStorage(*connection, meshes_, collection, stop);
   (void)connection->Execute("ROLLBACK");
   return report;
 }

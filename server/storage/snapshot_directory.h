@@ -31,7 +31,8 @@ class SnapshotDirectory : public StoreAdmin {
   absl::StatusOr<std::unique_ptr<SnapshotReader>> OpenSnapshot(
       std::string_view id) const override;
   absl::Status DeleteSnapshot(std::string_view id) override;
-  absl::StatusOr<StorageReport> Verify(const StopToken& stop) const override;
+  absl::StatusOr<StorageReport> Verify(std::string_view collection,
+                                       const StopToken& stop) const override;
 
  private:
   SnapshotDirectory(std::shared_ptr<DataDirectory> directory,

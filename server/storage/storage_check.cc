@@ -4,12 +4,39 @@
 #include "absl/strings/str_format.h"
 #include "core/base/crc32c.h"
 #include "core/base/status_macros.h"
+#include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
 
 namespace argmesh {
 namespace {
 
 constexpr int64_t kPieceBytes = 1 << 20;
+constexpr int kStepsBetweenLooks = 100'000;  // of SQLite; about 1 ms
+
+// While it lives, a statement that runs for long is interrupted when `stop`
+// says so.
+class StoppedQueries {
+ public:
+  StoppedQueries(SqliteConnection& connection, const StopToken& stop)
+      : db_(connection.handle()), stop_(stop) {
+    sqlite3_progress_handler(db_, kStepsBetweenLooks, &Look, this);
+  }
+  ~StoppedQueries() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
+  StoppedQueries(const StoppedQueries&) = delete;
+  StoppedQueries& operator=(const StoppedQueries&) = delete;
+
+ private:
+  static int Look(void* self) {
+    return static_cast<StoppedQueries*>(self)->stop_.Check().ok() ? 0 : 1;
+  }
+
+  sqlite3* const db_;
+  const StopToken stop_;
+};
+
+// Holds for the shapes `s` of the collections `c` that are looked at: those of
+// the first parameter, all when it is empty.
+constexpr char kOfCollection[] = "(?1 = '' OR c.name = ?1)";
 
 // Every column of stored bytes, and the column of its CRC-32C.
 struct CheckedColumn {
@@ -49,13 +76,15 @@ absl::Status CheckStructure(SqliteConnection& connection, const char* pragma,
 }
 
 absl::Status CheckColumn(SqliteConnection& connection,
-                         const CheckedColumn& column, const StopToken& stop,
+                         const CheckedColumn& column,
+                         std::string_view collection, const StopToken& stop,
                          StorageReport& report) {
   const std::string sql = absl::StrFormat(
       "SELECT c.name, s.name, t.%s, t.%s FROM %s t %s JOIN collection c ON "
-      "c.id = s.collection_id ORDER BY t.rowid",
-      column.bytes, column.crc32c, column.table, column.shape);
-  ARGMESH_ASSIGN_OR_RETURN(SqliteStatement rows, connection.Query(sql));
+      "c.id = s.collection_id WHERE %s ORDER BY t.rowid",
+      column.bytes, column.crc32c, column.table, column.shape, kOfCollection);
+  ARGMESH_ASSIGN_OR_RETURN(SqliteStatement rows,
+                           connection.Query(sql, collection));
   while (true) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const bool row, rows.Step());
@@ -72,14 +101,24 @@ absl::Status CheckColumn(SqliteConnection& connection,
 }
 
 absl::Status CheckGraphsAreThere(SqliteConnection& connection,
+                                 std::string_view collection,
                                  StorageReport& report) {
-  ARGMESH_ASSIGN_OR_RETURN(report.shapes,
-                           connection.QueryInt("SELECT COUNT(*) FROM shape"));
+  ARGMESH_ASSIGN_OR_RETURN(
+      report.shapes,
+      connection.QueryInt(
+          absl::StrCat("SELECT COUNT(*) FROM shape s JOIN collection c ON "
+                       "c.id = s.collection_id WHERE ",
+                       kOfCollection),
+          collection));
   ARGMESH_ASSIGN_OR_RETURN(
       SqliteStatement rows,
-      connection.Query("SELECT c.name, s.name FROM shape s JOIN collection c "
-                       "ON c.id = s.collection_id WHERE NOT EXISTS (SELECT 1 "
-                       "FROM graph g WHERE g.id = s.graph_id)"));
+      connection.Query(
+          absl::StrCat("SELECT c.name, s.name FROM shape s JOIN collection c "
+                       "ON c.id = s.collection_id WHERE ",
+                       kOfCollection,
+                       " AND NOT EXISTS (SELECT 1 FROM graph g WHERE "
+                       "g.id = s.graph_id)"),
+          collection));
   while (true) {
     ARGMESH_ASSIGN_OR_RETURN(const bool row, rows.Step());
     if (!row) return absl::OkStatus();
@@ -90,9 +129,10 @@ absl::Status CheckGraphsAreThere(SqliteConnection& connection,
 }
 
 absl::Status CheckMeshes(SqliteConnection& connection, const MeshStore& meshes,
-                         const StopToken& stop, StorageReport& report) {
+                         std::string_view collection, const StopToken& stop,
+                         StorageReport& report) {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> named,
-                           ReadNamedMeshes(connection));
+                           ReadNamedMeshes(connection, collection));
   for (const NamedMesh& mesh : named) {
     absl::Status status =
         ReadWholeMesh(meshes, mesh, stop, [&report](std::string_view piece) {
@@ -109,13 +149,41 @@ absl::Status CheckMeshes(SqliteConnection& connection, const MeshStore& meshes,
   return absl::OkStatus();
 }
 
+absl::Status Check(SqliteConnection& connection, const MeshStore& meshes,
+                   std::string_view collection, const StopToken& stop,
+                   StorageReport& report) {
+  if (collection.empty()) {
+    for (const char* pragma :
+         {"PRAGMA integrity_check", "PRAGMA foreign_key_check"}) {
+      ARGMESH_RETURN_IF_ERROR(CheckStructure(connection, pragma, report));
+    }
+  } else {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const int64_t collections,
+        connection.QueryInt("SELECT COUNT(*) FROM collection WHERE name = ?",
+                            collection));
+    if (collections == 0) return CollectionNotFoundError(collection);
+  }
+  ARGMESH_RETURN_IF_ERROR(CheckGraphsAreThere(connection, collection, report));
+  for (const CheckedColumn& column : kColumns) {
+    ARGMESH_RETURN_IF_ERROR(
+        CheckColumn(connection, column, collection, stop, report));
+  }
+  return CheckMeshes(connection, meshes, collection, stop, report);
+}
+
 }  // namespace
 
 absl::StatusOr<std::vector<NamedMesh>> ReadNamedMeshes(
-    SqliteConnection& connection) {
+    SqliteConnection& connection, std::string_view collection) {
   ARGMESH_ASSIGN_OR_RETURN(
       SqliteStatement rows,
-      connection.Query("SELECT sha256, size_bytes FROM mesh ORDER BY sha256"));
+      connection.Query(
+          absl::StrCat("SELECT sha256, size_bytes FROM mesh WHERE ?1 = '' OR "
+                       "sha256 IN (SELECT s.mesh_sha256 FROM shape s JOIN "
+                       "collection c ON c.id = s.collection_id WHERE ",
+                       kOfCollection, ") ORDER BY sha256"),
+          collection));
   std::vector<NamedMesh> named;
   while (true) {
     ARGMESH_ASSIGN_OR_RETURN(const bool row, rows.Step());
@@ -150,18 +218,16 @@ absl::Status ReadWholeMesh(
 
 absl::StatusOr<StorageReport> CheckStorage(SqliteConnection& connection,
                                            const MeshStore& meshes,
+                                           std::string_view collection,
                                            const StopToken& stop) {
+  const StoppedQueries queries(connection, stop);
   StorageReport report;
-  for (const char* pragma :
-       {"PRAGMA integrity_check", "PRAGMA foreign_key_check"}) {
-    ARGMESH_RETURN_IF_ERROR(CheckStructure(connection, pragma, report));
-  }
-  ARGMESH_RETURN_IF_ERROR(CheckGraphsAreThere(connection, report));
-  for (const CheckedColumn& column : kColumns) {
-    ARGMESH_RETURN_IF_ERROR(CheckColumn(connection, column, stop, report));
-  }
-  ARGMESH_RETURN_IF_ERROR(CheckMeshes(connection, meshes, stop, report));
-  return report;
+  const absl::Status checked =
+      Check(connection, meshes, collection, stop, report);
+  if (checked.ok()) return report;
+  // An interrupted statement only says that it was.
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  return checked;
 }
 
 }  // namespace argmesh

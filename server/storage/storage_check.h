@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -23,9 +24,10 @@ struct NamedMesh {
   int64_t size_bytes = 0;
 };
 
-// Every mesh that the catalog names, by digest.
+// Every mesh that the catalog names, or that shapes of `collection` name where
+// it is not empty; by digest.
 absl::StatusOr<std::vector<NamedMesh>> ReadNamedMeshes(
-    SqliteConnection& connection);
+    SqliteConnection& connection, std::string_view collection);
 
 // Reads one mesh to its end, handing out its pieces. STORED_DATA_DAMAGED when
 // it is missing, or of other bytes or another size than `mesh` says.
@@ -34,10 +36,13 @@ absl::Status ReadWholeMesh(
     const std::function<absl::Status(std::string_view)>& piece);
 
 // The database's structure, the checksum of every stored graph, label,
-// signature and window, and every mesh. Findings go into the report; fails
-// only when something cannot be read at all, or `stop` says so.
+// signature and window, and every mesh; where `collection` is not empty, all
+// but the structure, and of its shapes only. Findings go into the report; fails
+// only when something cannot be read at all, there is no such collection
+// (COLLECTION_NOT_FOUND), or `stop` says so.
 absl::StatusOr<StorageReport> CheckStorage(SqliteConnection& connection,
                                            const MeshStore& meshes,
+                                           std::string_view collection,
                                            const StopToken& stop);
 
 }  // namespace argmesh

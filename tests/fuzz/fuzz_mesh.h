@@ -5,22 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_write.h"
 #include "core/mesh/triangle_mesh.h"
+#include "tests/fuzz/require.h"
 
 namespace argmesh {
-
-inline void Require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken: %s\n", what);
-  std::abort();
-}
 
 inline void CheckError(const absl::Status& status) {
   Require(status.code() == absl::StatusCode::kInvalidArgument ||

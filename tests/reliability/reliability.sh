@@ -14,11 +14,13 @@ if [[ ${2:-} == --full ]]; then
   export ARGMESH_MODEL_OPERATIONS=${ARGMESH_MODEL_OPERATIONS:-20000}
   export ARGMESH_HOSTILE_PEERS=${ARGMESH_HOSTILE_PEERS:-10000}
   export ARGMESH_SLOW_PEER_SECONDS=${ARGMESH_SLOW_PEER_SECONDS:-60}
+  export ARGMESH_CANCELLED_CALLS=${ARGMESH_CANCELLED_CALLS:-1000}
   export ARGMESH_OVERLOAD_SECONDS=${ARGMESH_OVERLOAD_SECONDS:-60}
   export ARGMESH_SOAK_SECONDS=${ARGMESH_SOAK_SECONDS:-1800}
   export ARGMESH_DAMAGED_SNAPSHOTS=${ARGMESH_DAMAGED_SNAPSHOTS:-5000}
 fi
 
+export ARGMESH_CANCELLED_CALLS=${ARGMESH_CANCELLED_CALLS:-200}
 export ARGMESH_OVERLOAD_SECONDS=${ARGMESH_OVERLOAD_SECONDS:-10}
 
 log=$(mktemp)
@@ -58,6 +60,7 @@ row "stop with calls in flight" lifecycle_test \
 row "same answers after restart" kill_test '*.AnswersTheSame*'
 row "kill -9 in an ingest" kill_test '*.LosesNothing*'
 row "hostile peers" hostile_peers_test '*'
+row "cancellation" cancellation_test '*'
 row "overload" overload_test '*'
 row "memory over time" soak_test '*'
 

@@ -72,7 +72,7 @@ TEST_F(RestoreTest, BringsASnapshotToAnEmptyDirectory) {
   EXPECT_TRUE(report->kept.empty()) << report->kept;
   StoredSamples restored(data);
   EXPECT_EQ(restored.Contents(), then_);
-  EXPECT_EQ(restored.snapshots().Verify({})->findings, 0);
+  EXPECT_EQ(restored.snapshots().Verify("", {})->findings, 0);
   restored.AddShape("cups", "cup-4", 4);  // and it goes on
   EXPECT_EQ(restored.Contents().size(), 4U);
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 
 #include "server/engine/error_reason.h"
@@ -125,13 +126,37 @@ TEST_F(SnapshotDirectoryTest, KeepsMeshesWhileRemovalsAreHeld) {
 }
 
 TEST_F(SnapshotDirectoryTest, FindsNothingInASoundStore) {
-  const auto report = samples_.snapshots().Verify({});
+  const auto report = samples_.snapshots().Verify("", {});
   ASSERT_TRUE(report.ok()) << report.status();
   EXPECT_EQ(report->findings, 0) << report->first_findings.front();
   EXPECT_EQ(report->shapes, 3);
   EXPECT_EQ(report->meshes, 3);
   EXPECT_EQ(report->checksums, 15) << "five of each shape";
   EXPECT_GT(report->mesh_bytes, 300);
+}
+
+TEST_F(SnapshotDirectoryTest, ChecksOneCollectionAlone) {
+  samples_.AddCollection("empty");
+  std::filesystem::remove(BlobOf("cup-1"));
+  const auto cups = samples_.snapshots().Verify("cups", {});
+  ASSERT_TRUE(cups.ok()) << cups.status();
+  EXPECT_EQ(cups->shapes, 3);
+  EXPECT_EQ(cups->meshes, 3);
+  EXPECT_EQ(cups->checksums, 15);
+  EXPECT_EQ(cups->findings, 1);
+  const auto none = samples_.snapshots().Verify("empty", {});
+  ASSERT_TRUE(none.ok()) << none.status();
+  EXPECT_EQ(none->shapes + none->meshes + none->checksums + none->findings, 0);
+  EXPECT_EQ(ReasonOf(samples_.snapshots().Verify("nobody", {}).status()),
+            ErrorReason::kCollectionNotFound);
+}
+
+TEST_F(SnapshotDirectoryTest, StopsAVerification) {
+  std::stop_source source;
+  source.request_stop();
+  const StopToken stopped(source.get_token(), absl::InfiniteFuture());
+  EXPECT_EQ(samples_.snapshots().Verify("", stopped).status().code(),
+            absl::StatusCode::kCancelled);
 }
 
 TEST_F(SnapshotDirectoryTest, FindsEveryKindOfDamage) {
@@ -156,7 +181,7 @@ TEST_F(SnapshotDirectoryTest, FindsEveryKindOfDamage) {
     }
   }
   samples_.Open();
-  const auto report = samples_.snapshots().Verify({});
+  const auto report = samples_.snapshots().Verify("", {});
   ASSERT_TRUE(report.ok()) << report.status();
   EXPECT_EQ(report->findings, 9);
   EXPECT_THAT(report->first_findings,
