@@ -55,7 +55,7 @@ class AnsweringReactor : public Base {
     }
     answered_.Begin();
     this->environment().answers.Add(
-        this, this->scope().context()->peer(),
+        this, this->scope().peer(),
         static_cast<int64_t>(response_->ByteSizeLong()));
     this->StartWriteAndFinish(response_.get(), grpc::WriteOptions(), status);
   }

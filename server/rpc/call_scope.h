@@ -33,6 +33,7 @@ class CallScope {
 
   ServiceEnvironment& environment() { return environment_; }
   grpc::CallbackServerContext* context() { return context_; }
+  const std::string& peer() const { return record_.peer; }
   const StopToken& stop() const { return stop_; }
   absl::Time deadline() const { return stop_.deadline(); }
   std::mutex& mutex() { return mutex_; }

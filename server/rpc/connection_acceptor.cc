@@ -1,6 +1,7 @@
 #include "server/rpc/connection_acceptor.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "core/base/status_macros.h"
 
 namespace argmesh {
@@ -26,6 +28,9 @@ namespace {
 constexpr char kAnyIpv4[] = "0.0.0.0";
 constexpr char kAnyAddress[] = "::";
 constexpr rlim_t kWantedDescriptors = 16384;
+
+// Nothing is taken of a host whose connection was cut.
+constexpr auto kShunned = std::chrono::seconds(1);
 
 // Until descriptors are looked for again.
 constexpr auto kPause = std::chrono::milliseconds(50);
@@ -92,6 +97,47 @@ int Bound(const addrinfo& address) {
   close(listener);
   errno = error;
   return -1;
+}
+
+uint64_t CookieOf(int socket) {
+  uint64_t cookie = 0;
+  socklen_t size = sizeof cookie;
+  getsockopt(socket, SOL_SOCKET, SO_COOKIE, &cookie, &size);
+  return cookie;
+}
+
+// As gRPC names the peer of a connection, but with the brackets of IPv6 as they
+// are: "ipv4:127.0.0.1:4711", "ipv6:[::1]:4711".
+std::string PeerOf(int connection) {
+  sockaddr_storage peer = {};
+  socklen_t size = sizeof peer;
+  if (getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) {
+    return "";
+  }
+  char host[INET6_ADDRSTRLEN] = "";
+  if (peer.ss_family == AF_INET) {
+    const auto& v4 = reinterpret_cast<const sockaddr_in&>(peer);
+    inet_ntop(AF_INET, &v4.sin_addr, host, sizeof host);
+    return absl::StrCat("ipv4:", host, ":", ntohs(v4.sin_port));
+  }
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(peer);
+  if (IN6_IS_ADDR_V4MAPPED(&v6.sin6_addr)) {
+    inet_ntop(AF_INET, &v6.sin6_addr.s6_addr[12], host, sizeof host);
+    return absl::StrCat("ipv4:", host, ":", ntohs(v6.sin6_port));
+  }
+  inet_ntop(AF_INET6, &v6.sin6_addr, host, sizeof host);
+  return absl::StrCat("ipv6:[", host, "]:", ntohs(v6.sin6_port));
+}
+
+std::string HostOf(const std::string& peer) {
+  return peer.substr(0, peer.rfind(':'));
+}
+
+// Ends a connection without reading what it still holds, which a shutdown would
+// let the reader have.
+void Disconnect(int connection) {
+  const sockaddr nobody = {AF_UNSPEC, {}};
+  connect(connection, &nobody, sizeof nobody);
 }
 
 // The kernel hands out the lowest free number: one that is so high says that
@@ -198,11 +244,48 @@ void ConnectionAcceptor::Take(int listener) {
     close(connection);
     return;
   }
+  if (!Remember(connection)) {
+    ++cut_;
+    close(connection);
+    return;
+  }
   SetOption(connection, IPPROTO_TCP, TCP_NODELAY, 1);
   Sink::NewConnectionParameters parameters;
   parameters.listener_fd = listener;
   parameters.fd = connection;
   sink_->HandleNewConnection(&parameters);
+}
+
+bool ConnectionAcceptor::Remember(int connection) {
+  Connection made = {CookieOf(connection), PeerOf(connection)};
+  const auto now = Clock::now();
+  const std::lock_guard lock(mutex_);
+  std::erase_if(shunned_,
+                [now](const auto& host) { return host.second < now; });
+  if (shunned_.contains(HostOf(made.peer))) return false;
+  // Of those that are gone the number is reused.
+  connections_[connection] = std::move(made);
+  return true;
+}
+
+void ConnectionAcceptor::Cut(const std::string& peer) {
+  const std::string name =
+      absl::StrReplaceAll(peer, {{"%5B", "["}, {"%5D", "]"}});
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::find_if(connections_.begin(), connections_.end(),
+                   [&name](const auto& c) { return c.second.peer == name; });
+  if (found == connections_.end()) return;
+  // A number of our own, so that it stays the same connection from the look at
+  // it to the end of it.
+  const int connection = fcntl(found->first, F_DUPFD_CLOEXEC, 0);
+  if (connection >= 0) {
+    if (CookieOf(connection) == found->second.cookie) Disconnect(connection);
+    close(connection);
+  }
+  connections_.erase(found);
+  shunned_[HostOf(name)] = Clock::now() + kShunned;
+  ++cut_;
 }
 
 }  // namespace argmesh

@@ -5,6 +5,9 @@
 // closes a connection that would take one of the last descriptors, which are
 // the store's and the logs', and takes the next once others are closed.
 //
+// It can also cut a connection: what the peer has sent and gRPC has not read
+// yet is dropped, and for a while nothing of the same host is taken.
+//
 //   acceptor.Listen(address) // bound, nothing is taken yet
 //   acceptor.Serve(sink)     // once the server runs
 //   acceptor.Stop()          // before it goes
@@ -14,9 +17,14 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -45,18 +53,36 @@ class ConnectionAcceptor {
   // Takes none any more and closes the port. May be called again.
   void Stop();
 
+  // Cuts the connection that gRPC calls `peer`, if there still is one. From any
+  // thread.
+  void Cut(const std::string& peer);
+
   // Connections that were closed for want of descriptors.
   int64_t refused() const { return refused_; }
+  // Connections that were cut, or closed because one of the host was.
+  int64_t cut() const { return cut_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Connection {
+    uint64_t cookie = 0;  // the kernel's; a descriptor may be another's by now
+    std::string peer;
+  };
+
   absl::StatusOr<int> BindAll(const ListenAddress& address);
   void Run();
   void Take(int listener);
+  // False when nothing of the host is taken now.
+  bool Remember(int connection);
 
   std::vector<int> listeners_;
   int wake_ = -1;  // an eventfd: readable once Stop was called
   std::unique_ptr<Sink> sink_;
   std::atomic<int64_t> refused_{0};
+  std::atomic<int64_t> cut_{0};
+  std::mutex mutex_;
+  std::unordered_map<int, Connection> connections_;   // with mutex_
+  std::map<std::string, Clock::time_point> shunned_;  // hosts; with mutex_
   std::thread thread_;
 };
 

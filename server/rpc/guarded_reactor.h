@@ -30,6 +30,7 @@
 #include "absl/time/clock.h"
 #include "server/engine/error_reason.h"
 #include "server/rpc/call_scope.h"
+#include "server/rpc/status.h"
 
 namespace argmesh {
 
@@ -48,7 +49,10 @@ class GuardedReactor
     self_ = this->shared_from_this();
     Guard([this] {
       absl::Status status = environment().calls.Enter(this);
-      status.Update(scope_.Authorize());
+      if (!environment().connections.Enter(scope_.peer())) {
+        status.Update(TooManyCallsOfAConnection());
+      }
+      if (status.ok()) status = scope_.Authorize();
       if (status.ok()) {
         Begin();
       } else {
@@ -65,6 +69,7 @@ class GuardedReactor
   void OnDone() final {
     environment().answers.Remove(this);
     environment().requests.Remove(this);
+    environment().connections.Leave(scope_.peer());
     environment().calls.Leave(this);
     self_.reset();  // may delete this
   }

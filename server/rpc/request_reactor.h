@@ -27,7 +27,7 @@ class RequestReactor : public ReadingReactor<Base, Request> {
       this->FinishOnce(StreamIdle(limit));
     } else if (silence > kPromptness && !slow_) {
       slow_ = true;
-      requests().Add(this, this->scope().context()->peer(), kMaxMessageBytes);
+      requests().Add(this, this->scope().peer(), kMaxMessageBytes);
       if (received_) requests().Remove(this);
     }
   }

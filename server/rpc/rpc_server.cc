@@ -62,7 +62,9 @@ void SetChannelArguments(grpc::ServerBuilder& builder) {
   // near it gRPC lets peers send less and cuts streams.
   grpc::ResourceQuota quota("argmesh");
   builder.SetResourceQuota(quota.Resize(kMaxTransportBytes));
-  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 128);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxStreams);
+  // One peer's bytes are not worked on for long before another's turn.
+  builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, 64 << 10);
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 16 << 10);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 60 * kMillisPerSecond);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS,
@@ -136,6 +138,8 @@ class RpcServer::Impl {
     environment_.access.SetKeys(options.keys);
     environment_.store_admin = options.store_admin;
     environment_.import_source = options.import_source;
+    environment_.connections.SetCut(
+        [this](const std::string& peer) { acceptor_.Cut(peer); });
   }
 
   ~Impl() { Shutdown(absl::Now()); }
@@ -234,6 +238,10 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
   sheet.Counter("argmesh_connections_refused_total",
                 "Connections that were closed for want of descriptors.",
                 static_cast<double>(acceptor_.refused()));
+  sheet.Counter("argmesh_connections_cut_total",
+                "Connections that were cut, or not taken after one of the same "
+                "address was, because of calls that were reset at once.",
+                static_cast<double>(acceptor_.cut()));
   sheet.Gauge("argmesh_unread_answer_bytes",
               "Of answers that are made and not taken.",
               static_cast<double>(environment_.answers.bytes()));

@@ -14,6 +14,7 @@
 #include "server/rpc/access_control.h"
 #include "server/rpc/admission.h"
 #include "server/rpc/call_registry.h"
+#include "server/rpc/connection_calls.h"
 #include "server/rpc/operation_registry.h"
 #include "server/rpc/peer_budget.h"
 #include "server/telemetry/telemetry.h"
@@ -78,6 +79,7 @@ struct ServiceEnvironment {
   Admission uploads;
   Admission ingests;
   CallRegistry calls;
+  ConnectionCalls connections;
   PeerBudget answers{kMaxUnreadBytes};
   PeerBudget requests{kMaxSlowRequestBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served

@@ -202,6 +202,13 @@ absl::Status TooManySlowRequests() {
       absl::Seconds(1));
 }
 
+absl::Status TooManyCallsOfAConnection() {
+  return WithRetryDelay(
+      MakeError(ErrorReason::kOverloaded,
+                "this connection resets calls faster than they can end"),
+      absl::Seconds(1));
+}
+
 absl::Status ServerDraining() {
   return WithRetryDelay(
       MakeError(ErrorReason::kDraining, "the server is going down"),

@@ -38,6 +38,8 @@ absl::Status StreamIdle(absl::Duration limit);
 absl::Status StreamOrderInvalid(std::string_view why);
 // OVERLOADED, for a request that has not come whole.
 absl::Status TooManySlowRequests();
+// OVERLOADED, for a connection that is cut.
+absl::Status TooManyCallsOfAConnection();
 // DRAINING.
 absl::Status ServerDraining();
 

@@ -120,7 +120,7 @@ absl::Status CheckUnpacked(const fs::path& snapshot, const fs::path& folder,
   }
   ARGMESH_RETURN_IF_ERROR(CheckDatabase(*catalog));
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> named,
-                           ReadNamedMeshes(*catalog));
+                           ReadNamedMeshes(*catalog, /*collection=*/""));
   for (const NamedMesh& mesh : named) {
     const std::string name = MeshMemberName(mesh.sha256);
     if (static_cast<int64_t>(fs::file_size(folder / name, error)) !=

@@ -37,8 +37,9 @@ absl::Status RealStore::CheckWhole() const {
       const std::unique_ptr<SqliteConnection> connection,
       SqliteConnection::Open(directory->database_path(),
                              SqliteConnection::Mode::kReadOnly));
-  ARGMESH_ASSIGN_OR_RETURN(const StorageReport report,
-                           CheckStorage(*connection, *meshes, StopToken()));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const StorageReport report,
+      CheckStorage(*connection, *meshes, /*collection=*/"", StopToken()));
   if (report.findings == 0) return absl::OkStatus();
   return absl::DataLossError(report.first_findings.front());
 }
