@@ -29,7 +29,8 @@ constexpr char kAnyIpv4[] = "0.0.0.0";
 constexpr char kAnyAddress[] = "::";
 constexpr rlim_t kWantedDescriptors = 16384;
 
-// Nothing is taken of a host whose connection was cut.
+// Nothing is taken of a host whose connection was cut, and what was taken so
+// shortly before is cut too: they come in masses.
 constexpr auto kShunned = std::chrono::seconds(1);
 
 // Until descriptors are looked for again.
@@ -133,11 +134,18 @@ std::string HostOf(const std::string& peer) {
   return peer.substr(0, peer.rfind(':'));
 }
 
-// Ends a connection without reading what it still holds, which a shutdown would
-// let the reader have.
-void Disconnect(int connection) {
+// Ends the connection of this number if it still is that of the cookie, without
+// reading what it still holds, which a shutdown would let the reader have.
+bool DisconnectIfSame(int connection, uint64_t cookie) {
+  // A number of our own: it stays the same connection from the look at it to
+  // the end of it.
+  const int same = fcntl(connection, F_DUPFD_CLOEXEC, 0);
+  if (same < 0) return false;
+  const bool is_same = CookieOf(same) == cookie;
   const sockaddr nobody = {AF_UNSPEC, {}};
-  connect(connection, &nobody, sizeof nobody);
+  if (is_same) connect(same, &nobody, sizeof nobody);
+  close(same);
+  return is_same;
 }
 
 // The kernel hands out the lowest free number: one that is so high says that
@@ -257,8 +265,8 @@ void ConnectionAcceptor::Take(int listener) {
 }
 
 bool ConnectionAcceptor::Remember(int connection) {
-  Connection made = {CookieOf(connection), PeerOf(connection)};
   const auto now = Clock::now();
+  Connection made = {CookieOf(connection), PeerOf(connection), now};
   const std::lock_guard lock(mutex_);
   std::erase_if(shunned_,
                 [now](const auto& host) { return host.second < now; });
@@ -271,21 +279,21 @@ bool ConnectionAcceptor::Remember(int connection) {
 void ConnectionAcceptor::Cut(const std::string& peer) {
   const std::string name =
       absl::StrReplaceAll(peer, {{"%5B", "["}, {"%5D", "]"}});
+  const std::string host = HostOf(name);
+  const auto now = Clock::now();
   const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(connections_.begin(), connections_.end(),
-                   [&name](const auto& c) { return c.second.peer == name; });
-  if (found == connections_.end()) return;
-  // A number of our own, so that it stays the same connection from the look at
-  // it to the end of it.
-  const int connection = fcntl(found->first, F_DUPFD_CLOEXEC, 0);
-  if (connection >= 0) {
-    if (CookieOf(connection) == found->second.cookie) Disconnect(connection);
-    close(connection);
+  shunned_[host] = now + kShunned;
+  for (auto it = connections_.begin(); it != connections_.end();) {
+    const Connection& connection = it->second;
+    const bool is_young = now - connection.taken < kShunned;
+    if (connection.peer == name ||
+        (is_young && HostOf(connection.peer) == host)) {
+      if (DisconnectIfSame(it->first, connection.cookie)) ++cut_;
+      it = connections_.erase(it);
+    } else {
+      ++it;
+    }
   }
-  connections_.erase(found);
-  shunned_[HostOf(name)] = Clock::now() + kShunned;
-  ++cut_;
 }
 
 }  // namespace argmesh

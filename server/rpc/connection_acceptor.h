@@ -5,8 +5,9 @@
 // closes a connection that would take one of the last descriptors, which are
 // the store's and the logs', and takes the next once others are closed.
 //
-// It can also cut a connection: what the peer has sent and gRPC has not read
-// yet is dropped, and for a while nothing of the same host is taken.
+// It can also cut a connection, and those of its host that are a second old at
+// most: what they have sent and gRPC has not read yet is dropped, and for a
+// second nothing of the host is taken.
 //
 //   acceptor.Listen(address) // bound, nothing is taken yet
 //   acceptor.Serve(sink)     // once the server runs
@@ -67,6 +68,7 @@ class ConnectionAcceptor {
   struct Connection {
     uint64_t cookie = 0;  // the kernel's; a descriptor may be another's by now
     std::string peer;
+    Clock::time_point taken;
   };
 
   absl::StatusOr<int> BindAll(const ListenAddress& address);

@@ -49,7 +49,7 @@ std::string Header(std::string_view name, std::string_view value) {
   return text;
 }
 
-int Connected(std::string_view address) {
+int Connected(std::string_view address, const std::string& from) {
   const size_t colon = address.rfind(':');
   const std::string host(address.substr(0, colon));
   const int port = std::stoi(std::string(address.substr(colon + 1)));
@@ -59,6 +59,12 @@ int Connected(std::string_view address) {
   inet_pton(AF_INET, host.c_str(), &to.sin_addr);
   const int peer = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (peer < 0) return -1;
+  if (!from.empty()) {
+    sockaddr_in source = {};
+    source.sin_family = AF_INET;
+    inet_pton(AF_INET, from.c_str(), &source.sin_addr);
+    bind(peer, reinterpret_cast<const sockaddr*>(&source), sizeof source);
+  }
   const timeval patience = {kSendPatienceSeconds, 0};
   setsockopt(peer, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   if (connect(peer, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0) {
@@ -109,7 +115,8 @@ std::string Http2ConnectionWindow(uint32_t bytes) {
   return FrameBytes(Http2Frame::kWindowUpdate, 0, 0, BigEndian(bytes, 4));
 }
 
-Http2Peer::Http2Peer(std::string_view address) : socket_(Connected(address)) {}
+Http2Peer::Http2Peer(std::string_view address, const std::string& from)
+    : socket_(Connected(address, from)) {}
 
 Http2Peer::~Http2Peer() {
   if (socket_ >= 0) close(socket_);

@@ -50,8 +50,9 @@ std::string Http2ConnectionWindow(uint32_t bytes);
 
 class Http2Peer {
  public:
-  // Connects to HOST:PORT; connected() is false when nobody takes it.
-  explicit Http2Peer(std::string_view address);
+  // Connects to HOST:PORT, as the IPv4 address `from` where it is not empty;
+  // connected() is false when nobody takes it.
+  explicit Http2Peer(std::string_view address, const std::string& from = "");
   ~Http2Peer();
   Http2Peer(Http2Peer&& other) noexcept;
   Http2Peer& operator=(Http2Peer&&) = delete;
