@@ -121,7 +121,7 @@ for tool in gcc g++ cc1plus cmake ninja protoc git; do
 done
 stop
 start
-[[ $(in_container argmesh list mugs --json) == *mug* ]] ||
+[[ $(in_container argmesh list --collection mugs --json) == *mug* ]] ||
   fail "its data did not outlive the container"
 stop
 echo "passed"

@@ -1,7 +1,7 @@
 // Calls of every kind of long work, each cancelled at a random moment: its work
 // stops, and nothing of it stays behind.
 //
-// ARGMESH_CANCELLED_CALLS of them, 60 when not set; from seed
+// ARGMESH_CANCELLED_CALLS of them, 33 when not set; from seed
 // ARGMESH_CANCELLED_SEED, 1. How soon the work stops is printed; that it is
 // within what is promised is asked only when the number is set, as other work
 // on the machine has a part in it.
@@ -380,7 +380,7 @@ TEST_F(CancellationTest, StopsTheWorkAndLeavesNothing) {
   }
   const int64_t before = ResidentBytes(getpid());
 
-  const uint64_t calls = EnvironmentNumber(kCalls, 60);
+  const uint64_t calls = EnvironmentNumber(kCalls, 33);
   for (uint64_t i = 0; i < calls; ++i) {
     ASSERT_NO_FATAL_FAILURE(CancelOne(kinds[i % kinds.size()], random));
   }

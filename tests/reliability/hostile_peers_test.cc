@@ -2,7 +2,7 @@
 // memory stays bounded, others are answered meanwhile, and it serves after.
 //
 // ARGMESH_HOSTILE_PEERS connections of the kinds that are many, 2,000 when not
-// set; ARGMESH_SLOW_PEER_SECONDS of the slow kinds, 2.
+// set; ARGMESH_SLOW_PEER_SECONDS of the slow kinds, 1.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -33,13 +33,16 @@ constexpr int64_t kMebibyte = 1 << 20;
 constexpr int kStreams = 128;  // of a connection, as the server allows
 constexpr size_t kMaxMessage = 4 << 20;
 constexpr uint32_t kLargeWindow = 1 << 30;
-constexpr auto kBaseline = milliseconds(500);
+constexpr auto kBaseline = milliseconds(300);
 // Other clients may become slower, also by what the test itself takes of the
 // machine, but not by so much.
 constexpr double kSlowerTimes = 50;
 constexpr double kSlowerMilliseconds = 2000;
 // A peer that neither sends nor takes anything is cut after it.
-constexpr char kIdleTimeout[] = "3";
+constexpr char kIdleTimeout[] = "2";
+
+// Another one than that of the others, who are not to be taken for it.
+constexpr char kOtherHost[] = "127.0.0.2";
 
 // Another one than that of the others, who are not to be taken for it.
 constexpr char kOtherHost[] = "127.0.0.2";
@@ -52,7 +55,7 @@ uint64_t ManyPeers() {
   return EnvironmentNumber("ARGMESH_HOSTILE_PEERS", 2000);
 }
 seconds SlowPeerTime() {
-  return seconds(EnvironmentNumber("ARGMESH_SLOW_PEER_SECONDS", 2));
+  return seconds(EnvironmentNumber("ARGMESH_SLOW_PEER_SECONDS", 1));
 }
 
 uint32_t StreamId(int n) { return static_cast<uint32_t>(2 * n + 1); }
