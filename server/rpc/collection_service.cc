@@ -98,8 +98,9 @@ absl::Status ReindexCollection(const UnaryCall& call,
         settings, FromProto("settings", request.settings(), present.settings));
   }
   ARGMESH_RETURN_IF_ERROR(engine.CheckReindex(id, settings));
-  const auto work = [&engine, id, settings](const RunControl& control)
-      -> absl::StatusOr<google::protobuf::Any> {
+  const auto work =
+      [&engine, id, settings](
+          const RunControl& control) -> absl::StatusOr<google::protobuf::Any> {
     ARGMESH_ASSIGN_OR_RETURN(const ReindexReport report,
                              engine.Reindex(id, settings, control));
     return Packed(ReindexAnswer(report));

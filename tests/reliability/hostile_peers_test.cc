@@ -44,9 +44,6 @@ constexpr char kIdleTimeout[] = "2";
 // Another one than that of the others, who are not to be taken for it.
 constexpr char kOtherHost[] = "127.0.0.2";
 
-// Another one than that of the others, who are not to be taken for it.
-constexpr char kOtherHost[] = "127.0.0.2";
-
 constexpr char kGetShape[] = "/argmesh.v1.ShapeService/GetShape";
 constexpr char kBatchGet[] = "/argmesh.v1.ShapeService/BatchGetShapes";
 constexpr char kUpload[] = "/argmesh.v1.ShapeService/UploadShape";
