@@ -2,9 +2,9 @@
 // stops, and nothing of it stays behind.
 //
 // ARGMESH_CANCELLED_CALLS of them, 33 when not set; from seed
-// ARGMESH_CANCELLED_SEED, 1. How soon the work stops is printed; that it is
-// within what is promised is asked only when the number is set, as other work
-// on the machine has a part in it.
+// ARGMESH_CANCELLED_SEED, 1. How soon the work stops is printed. Other work on
+// the machine has a part in that, so what is asked is the time on a CPU that
+// this process takes meanwhile: what is promised, for each thread of a search.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -378,10 +378,11 @@ TEST_F(CancellationTest, StopsTheWorkAndLeavesNothing) {
     kind.typical_milliseconds = MillisecondsSince(begin);
     ASSERT_TRUE(BecomesIdle());
   }
-  const int64_t before = ResidentBytes(getpid());
-
   const uint64_t calls = EnvironmentNumber(kCalls, 33);
+  int64_t before = 0;
   for (uint64_t i = 0; i < calls; ++i) {
+    // Caches and the allocator have what they keep by then.
+    if (i == calls / 3) before = ResidentBytes(getpid());
     ASSERT_NO_FATAL_FAILURE(CancelOne(kinds[i % kinds.size()], random));
   }
 
@@ -400,11 +401,11 @@ TEST_F(CancellationTest, StopsTheWorkAndLeavesNothing) {
   const int64_t growth = ResidentBytes(getpid()) - before;
   std::printf(
       "measured: %llu calls, %zu cancelled in time: idle after %.1f ms at the "
-      "median, p99 %.1f, at most %.1f; CPU meanwhile %.1f, at most %.1f; "
-      "memory %+lld MiB\n",
+      "median, p99 %.1f, at most %.1f; CPU meanwhile %.1f, p99 %.1f, at most "
+      "%.1f; memory %+lld MiB after the first third\n",
       static_cast<unsigned long long>(calls), stopped.size(),
       Quantile(stopped, 0.5), Quantile(stopped, 0.99), Quantile(stopped, 1),
-      Quantile(cpu, 0.5), Quantile(cpu, 1),
+      Quantile(cpu, 0.5), Quantile(cpu, 0.99), Quantile(cpu, 1),
       static_cast<long long>(growth >> 20));
 
   EXPECT_GT(stopped.size(), calls / 4);
@@ -417,7 +418,8 @@ TEST_F(CancellationTest, StopsTheWorkAndLeavesNothing) {
                   .SearchShapes(&context, SearchRequest(false), &response)
                   .ok());
   if (std::getenv(kCalls) == nullptr) return;
-  EXPECT_LE(Quantile(stopped, 0.99), kPromisedMilliseconds);
+  const int threads = server_->engine().pool().Load(WorkClass::kSearch).threads;
+  EXPECT_LE(Quantile(cpu, 0.99), kPromisedMilliseconds * threads);
 }
 
 }  // namespace

@@ -55,6 +55,42 @@ class GalleryTest : public ::testing::Test {
   Gallery gallery_;
 };
 
+// Cannot read the graphs of one collection.
+class TornCatalog : public MemoryCatalog {
+ public:
+  absl::StatusOr<std::vector<ScannedGraph>> ScanGraphs(
+      std::string_view collection_uid, std::string_view after_id,
+      int limit) const override {
+    if (collection_uid == torn_uid) {
+      return MakeError(ErrorReason::kStoredDataDamaged, "a torn page");
+    }
+    return MemoryCatalog::ScanGraphs(collection_uid, after_id, limit);
+  }
+  std::string torn_uid;
+};
+
+TEST(GalleryOfATornCatalog, ServesTheCollectionsThatItCanLoad) {
+  TornCatalog catalog;
+  for (const char* id : {"cups", "jugs"}) {
+    const CollectionRecord record = SampleCollection(id);
+    ASSERT_THAT(catalog.InsertCollection(record, {}), IsOk());
+    ASSERT_THAT(catalog.PutShape(SamplePut(record, "s", 1)), IsOk());
+    if (record.id == "cups") catalog.torn_uid = record.uid;
+  }
+  ComputePool pool({.threads = {1, 1, 1}});
+  Gallery gallery(catalog, pool);
+  gallery.Load({});
+  EXPECT_EQ(gallery.state(), IndexState::kServing);
+  EXPECT_EQ(gallery.Snapshot("jugs", 0).value()->size, 1);
+  EXPECT_EQ(ReasonOf(gallery.Snapshot("cups", 0).status()),
+            ErrorReason::kStoredDataDamaged);
+  const std::vector<CollectionHealth> health = gallery.Health();
+  ASSERT_EQ(health.size(), 2U);
+  EXPECT_FALSE(health[0].loaded);
+  EXPECT_NE(health[0].error, "");
+  EXPECT_EQ(health[1].error, "");
+}
+
 TEST_F(GalleryTest, LoadsWhatIsStoredAndTellsWhenItIsDone) {
   std::vector<IndexState> states;
   gallery_.Watch([&](IndexState state) { states.push_back(state); });
