@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/base/sha256.h"
+#include "core/base/utf8_prefix.h"
 
 namespace argmesh {
 namespace {
@@ -26,7 +27,7 @@ absl::Status CheckIdentifier(std::string_view what, std::string_view id) {
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s id \"%s\": 1 to %d of a-z, 0-9 and '-', beginning with a letter and "
       "not ending with '-'",
-      std::string(what), std::string(id.substr(0, 2 * kMaxIdentifierLength)),
+      std::string(what), std::string(Utf8Prefix(id, 2 * kMaxIdentifierLength)),
       kMaxIdentifierLength));
 }
 

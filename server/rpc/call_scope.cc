@@ -11,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
+#include "core/base/utf8_prefix.h"
 #include "server/engine/error_reason.h"
 #include "server/rpc/request_names.h"
 #include "server/rpc/status.h"
@@ -84,7 +85,7 @@ absl::Status CallScope::AuthorizeMessage(
   if (!named_ && !names.empty()) {
     named_ = true;
     const std::lock_guard lock(mutex_);
-    record_.resource = names.front().substr(0, kMaxLoggedName);
+    record_.resource = Utf8Prefix(names.front(), kMaxLoggedName);
   }
   return absl::OkStatus();
 }
@@ -141,8 +142,9 @@ google::rpc::Status CallScope::ReportItem(const ShapeRef& item,
     const std::lock_guard lock(mutex_);
     record = record_;
   }
-  record.resource = absl::StrCat("collections/", item.collection, "/shapes/",
-                                 item.id.substr(0, kMaxLoggedName));
+  record.resource =
+      absl::StrCat("collections/", item.collection, "/shapes/",
+                   std::string(Utf8Prefix(item.id, kMaxLoggedName)));
   google::rpc::Status report = Describe(status, record);
   environment_.telemetry.ItemFinished(record);
   return report;

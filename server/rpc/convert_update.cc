@@ -7,12 +7,16 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "core/base/status_macros.h"
+#include "core/base/utf8_prefix.h"
 #include "server/rpc/convert_collection.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
 
 namespace argmesh {
 namespace {
+
+// Of a path in a message.
+constexpr size_t kMaxShownPath = 100;
 
 struct Changeable {
   std::string field;
@@ -39,7 +43,8 @@ absl::StatusOr<std::vector<std::string>> FieldsOf(
       return FieldInvalid(
           "update_mask",
           absl::StrFormat(
-              "\"%s\" may not change; these may: %s", path.substr(0, 100),
+              "\"%s\" may not change; these may: %s",
+              std::string(Utf8Prefix(path, kMaxShownPath)),
               absl::StrJoin(changeable, ", ",
                             [](std::string* out, const Changeable& candidate) {
                               *out += candidate.field;

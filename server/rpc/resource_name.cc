@@ -6,6 +6,7 @@
 #include "absl/strings/str_format.h"
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
+#include "core/base/utf8_prefix.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/uid.h"
 #include "server/rpc/status.h"
@@ -21,7 +22,7 @@ absl::Status NameInvalid(std::string_view field, std::string_view name,
   return MakeError(
       ErrorReason::kNameInvalid,
       absl::StrFormat("%s: '%s' is not of the form %s", std::string(field),
-                      std::string(name.substr(0, kMaxShownLength)),
+                      std::string(Utf8Prefix(name, kMaxShownLength)),
                       std::string(pattern)),
       {{"field", std::string(field)}});
 }

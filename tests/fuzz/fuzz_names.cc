@@ -43,9 +43,9 @@ void FuzzPageToken(std::string_view text) {
     Require(ReasonOf(last.status()) == ErrorReason::kPageTokenInvalid,
             "page token");
   } else if (!last->empty()) {
-    Require(
-        ParsePageToken("shapes/c", MakePageToken("shapes/c", *last)) == *last,
-        "page token");
+    const auto again =
+        ParsePageToken("shapes/c", MakePageToken("shapes/c", *last));
+    Require(again.ok() && *again == *last, "page token");
     Require(!ParsePageToken("shapes/d", text).ok(), "a token of another list");
   }
 }

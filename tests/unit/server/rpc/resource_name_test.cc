@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/engine/error_reason.h"
+#include "server/engine/utf8.h"
 
 namespace argmesh {
 namespace {
@@ -43,6 +44,20 @@ TEST(ResourceName, ShowsOnlyTheBeginningOfAHugeName) {
   const absl::Status status =
       ParseShapeName("name", std::string(1 << 20, 'x')).status();
   EXPECT_LT(status.message().size(), 500u);
+}
+
+// protobuf's clients refuse to read a status with half a character in it.
+TEST(ResourceName, CutsAHugeNameBetweenCharacters) {
+  std::string name;
+  for (int i = 0; i < 1000; ++i) name += "\xE2\x82\xAC";
+  for (size_t before = 0; before < 3; ++before) {
+    const absl::Status status =
+        ParseShapeName("name", std::string(before, 'x') + name).status();
+    EXPECT_TRUE(IsUtf8(std::string(status.message()))) << before;
+    const absl::Status id =
+        CheckResourceId("id", std::string(before, 'x') + name);
+    EXPECT_TRUE(IsUtf8(std::string(id.message()))) << before;
+  }
 }
 
 }  // namespace
