@@ -12,6 +12,7 @@
 #include "absl/time/time.h"
 #include "core/base/sha256.h"
 #include "server/engine/collection_record.h"
+#include "server/engine/settings_stage.h"
 #include "server/engine/shape_record.h"
 
 namespace argmesh {
@@ -61,24 +62,6 @@ struct SurfaceDescriptors {
   std::string windows;       // read one shape at a time, ReadWindows
 };
 
-// Settings that a collection is to be switched to, and the version of what is
-// computed with them.
-struct SettingsStage {
-  CollectionSettings settings;
-  uint32_t graph_version = 0;
-
-  friend bool operator==(const SettingsStage&, const SettingsStage&) = default;
-};
-
-// What a shape is with the settings of a stage.
-struct StagedDescription {
-  SettingsStage stage;
-  MeshReport report;
-  GraphSummary summary;
-  std::string graph;   // SerializeShapeGraph
-  std::string labels;  // SerializeFaceLabels
-};
-
 struct ShapePut {
   // Comes with uid and times; the generation is given by the catalog.
   ShapeRecord record;
@@ -107,22 +90,6 @@ struct ShapeWritten {
   std::string collection_uid;
   bool written = true;  // false: was stored already, by kReturnSame or a retry
   std::vector<Sha256Digest> unreferenced;  // as above
-};
-
-// Puts aside what a shape is with other settings.
-struct ShapeStaging {
-  std::string collection;
-  std::string collection_uid;
-  std::string id;
-  Sha256Digest sha256{};  // of the mesh it was made from
-  StagedDescription description;
-};
-
-struct SettingsSwitch {
-  std::string collection;
-  std::string collection_uid;
-  SettingsStage stage;
-  absl::Time update_time;
 };
 
 struct ShapePatch {

@@ -29,18 +29,14 @@
 #include "server/engine/compute_pool.h"
 #include "server/engine/gallery_snapshot.h"
 #include "server/engine/index_state.h"
+#include "server/engine/parsed_shape.h"
 #include "server/engine/shape_requests.h"
 
 namespace argmesh {
 
 class Gallery {
  public:
-  // A shape as read, whose record may still change; by id.
-  struct ParsedShape {
-    std::shared_ptr<GalleryEntry> entry;
-    WindowWords words;
-  };
-  using StagedShapes = std::unordered_map<std::string, ParsedShape>;
+  using StagedShapes = std::unordered_map<std::string, ParsedShape>;  // by id
 
   // Both must outlive the gallery.
   Gallery(const Catalog& catalog, ComputePool& pool);

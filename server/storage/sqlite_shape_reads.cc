@@ -160,17 +160,10 @@ absl::StatusOr<ShapeRecord> SqliteCatalog::GetShape(std::string_view collection,
       readers_.Read([&](SqliteConnection& connection) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(const CollectionRow found,
                                  FindCollectionRow(connection, collection));
-        ARGMESH_ASSIGN_OR_RETURN(
-            SqliteStatement statement,
-            connection.Query("SELECT " ARGMESH_SHAPE_COLUMNS
-                             " FROM shape s JOIN collection c "
-                             "ON c.id = s.collection_id "
-                             "WHERE s.collection_id = ? AND s.name = ?",
-                             found.number, id));
-        ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
-        if (!row) return ShapeNotFoundError(collection, id);
-        ARGMESH_ASSIGN_OR_RETURN(ShapeRow shape, ReadShapeRow(statement));
-        record = std::move(shape.record);
+        ARGMESH_ASSIGN_OR_RETURN(std::optional<ShapeRow> shape,
+                                 FindShapeRow(connection, found.number, id));
+        if (!shape) return ShapeNotFoundError(collection, id);
+        record = std::move(shape->record);
         return absl::OkStatus();
       }));
   return record;

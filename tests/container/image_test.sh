@@ -52,7 +52,7 @@ base_bytes=$(podman "${store[@]}" image inspect --format '{{.Size}}' \
 cache=()
 if command -v ccache >/dev/null; then
   mkdir -p "$(ccache -k cache_dir)"
-  cache=(--volume "$(ccache -k cache_dir):/root/.cache/ccache")
+  cache=(--volume "$(ccache -k cache_dir):/ccache")
 fi
 buildah "${store[@]}" --storage-driver overlay bud --isolation chroot \
   --pull-never --format docker --layers=false --quiet "${cache[@]}" \

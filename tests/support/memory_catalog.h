@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "server/engine/catalog.h"
+#include "server/engine/catalog_errors.h"
 
 namespace argmesh {
 
@@ -123,6 +124,25 @@ class MemoryCatalog : public Catalog {
                                           std::string_view uid,
                                           const SettingsStage& stage);
   const Collection* FindUid(std::string_view uid) const;
+  // What `take(collection, shape)` makes of the shapes after `after_id`, in
+  // their order, at most `limit`; none leaves a shape out. Takes the lock.
+  template <typename Item, typename Take>
+  absl::StatusOr<std::vector<Item>> Page(std::string_view collection_uid,
+                                         std::string_view after_id, int limit,
+                                         const Take& take) const {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return CatalogClosedError();
+    std::vector<Item> items;
+    const Collection* found = FindUid(collection_uid);
+    if (found == nullptr) return items;
+    for (auto it = found->shapes.upper_bound(after_id);
+         it != found->shapes.end() && static_cast<int>(items.size()) < limit;
+         ++it) {
+      std::optional<Item> item = take(*found, it->second);
+      if (item) items.push_back(*std::move(item));
+    }
+    return items;
+  }
   absl::StatusOr<std::optional<std::string>> Recall(
       const RequestStamp& request) const;
   void Remember(const RequestStamp& request, std::string answer);

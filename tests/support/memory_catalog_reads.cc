@@ -62,17 +62,11 @@ absl::StatusOr<StoredGraph> MemoryCatalog::ReadGraph(
 absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanGraphs(
     std::string_view collection_uid, std::string_view after_id,
     int limit) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  std::vector<ScannedGraph> scanned;
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr) return scanned;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(scanned.size()) < limit;
-       ++it) {
-    scanned.push_back(Scan(*found, it->second));
-  }
-  return scanned;
+  return Page<ScannedGraph>(
+      collection_uid, after_id, limit,
+      [](const Collection& collection, const Shape& shape) {
+        return std::optional(Scan(collection, shape));
+      });
 }
 
 absl::StatusOr<ScannedGraph> MemoryCatalog::FindGraph(

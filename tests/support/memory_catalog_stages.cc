@@ -57,37 +57,26 @@ absl::Status MemoryCatalog::StageShape(const ShapeStaging& staging) {
 absl::StatusOr<std::vector<std::string>> MemoryCatalog::ListUnstaged(
     std::string_view collection_uid, std::string_view after_id,
     int limit) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  std::vector<std::string> ids;
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr) return ids;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(ids.size()) < limit;
-       ++it) {
-    if (!it->second.IsStaged()) ids.push_back(it->first);
-  }
-  return ids;
+  return Page<std::string>(
+      collection_uid, after_id, limit,
+      [](const Collection&, const Shape& shape) -> std::optional<std::string> {
+        if (shape.IsStaged()) return std::nullopt;
+        return shape.record.id;
+      });
 }
 
 absl::StatusOr<std::vector<ScannedGraph>> MemoryCatalog::ScanStaged(
     std::string_view collection_uid, std::string_view after_id,
     int limit) const {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  std::vector<ScannedGraph> scanned;
-  const Collection* found = FindUid(collection_uid);
-  if (found == nullptr) return scanned;
-  for (auto it = found->shapes.upper_bound(after_id);
-       it != found->shapes.end() && static_cast<int>(scanned.size()) < limit;
-       ++it) {
-    if (!it->second.IsStaged()) continue;
-    Shape shape = it->second;
-    shape.TakeStaged();
-    scanned.push_back(Scan(*found, shape));
-    scanned.back().settings = found->stage->settings;
-  }
-  return scanned;
+  return Page<ScannedGraph>(collection_uid, after_id, limit,
+                            [](const Collection& collection,
+                               Shape shape) -> std::optional<ScannedGraph> {
+                              if (!shape.IsStaged()) return std::nullopt;
+                              shape.TakeStaged();
+                              ScannedGraph scanned = Scan(collection, shape);
+                              scanned.settings = collection.stage->settings;
+                              return scanned;
+                            });
 }
 
 absl::StatusOr<std::optional<CollectionRecord>> MemoryCatalog::SwitchSettings(
