@@ -33,7 +33,8 @@ the first C, 2 C. *E*: harmonic mean of precision and recall of the first 32. *D
 
 **What was tuned on these.** Weights and scales of graphs were chosen on every second mesh of shrec07, what makes the graphs' score of their levels
 by looking at both halves of it and at psb; the codebook of signatures was learnt from every second mesh of shrec07 and
-psb without classes, the window codebook from half of shrec07; the weight of the graphs in partial searches from every second query. Other collections will come out lower.
+psb without classes, the window codebook from half of shrec07; the weight of the graphs in partial searches from every second query;
+scales of the default score on every second mesh of shrec07, its weights on every second query of shrec07 and psb. Other collections will come out lower.
 """
 
 PUBLISHED = """## Published figures
