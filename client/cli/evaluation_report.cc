@@ -77,6 +77,8 @@ Json ToJson(const Evaluation& evaluation) {
     json["with_source"] = evaluation.with_source;
     json["source_first"] = evaluation.source_first;
     json["source_top5"] = evaluation.source_top5;
+    json["source_verified"] = evaluation.source_verified;
+    json["other_class_verified"] = evaluation.other_verified;
   }
   json["per_class"] = std::move(per_class);
   json["per_query"] = QueriesToJson(evaluation.per_query);
@@ -111,8 +113,10 @@ std::string ToText(const Evaluation& evaluation) {
                                     : "not every class is most like itself");
   if (evaluation.has_sources && evaluation.with_source > 0) {
     text += absl::StrFormat(
-        "source found first %.3f, among the first five %.3f, of %d queries\n",
+        "source found first %.3f, among the first five %.3f, verified %.3f, a "
+        "shape of another class verified %.3f, of %d queries\n",
         evaluation.source_first, evaluation.source_top5,
+        evaluation.source_verified, evaluation.other_verified,
         evaluation.with_source);
   }
   if (evaluation.skipped > 0) {

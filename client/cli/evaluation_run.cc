@@ -30,7 +30,8 @@ constexpr double kNoScore = std::numeric_limits<double>::quiet_NaN();
 struct RankedAnswer {
   absl::Status status;
   std::vector<size_t> ranked;
-  std::vector<double> scores;  // of `ranked`
+  std::vector<double> scores;     // of `ranked`
+  std::vector<uint8_t> verified;  // of `ranked`: found to contain the query
 };
 
 class EvaluationJob {
@@ -48,7 +49,7 @@ class EvaluationJob {
   void AskAll();
   void AddMeasures(size_t query, Evaluation& evaluation) const;
   int64_t SourceRank(size_t query_index) const;
-  void AddSourceRank(size_t query, Evaluation& evaluation) const;
+  void AddSource(size_t query, Evaluation& evaluation) const;
   void FillMatrix(Evaluation& evaluation) const;
   absl::Status WriteScores() const;
 
@@ -116,9 +117,9 @@ absl::StatusOr<v1::SearchShapesRequest> EvaluationJob::MakeRequest(
 RankedAnswer EvaluationJob::Ask(const EvaluationQuery& query) const {
   RankedAnswer answer;
   const auto request = MakeRequest(query);
-  if (!request.ok()) return {request.status(), {}, {}};
+  if (!request.ok()) return {request.status(), {}, {}, {}};
   const auto response = client_->SearchShapes(*request);
-  if (!response.ok()) return {response.status(), {}, {}};
+  if (!response.ok()) return {response.status(), {}, {}, {}};
   if (response->truncated()) {
     answer.status =
         absl::ResourceExhaustedError("the answer was cut to fit in a message");
@@ -129,6 +130,7 @@ RankedAnswer EvaluationJob::Ask(const EvaluationQuery& query) const {
     if (!shape) continue;
     answer.ranked.push_back(*shape);
     answer.scores.push_back(match.score());
+    answer.verified.push_back(match.containment().verified() ? 1 : 0);
   }
   return answer;
 }
@@ -147,6 +149,7 @@ void EvaluationJob::AskAll() {
       answers_[i] =
           unreachable
               ? RankedAnswer{absl::UnavailableError("the server went away"),
+                             {},
                              {},
                              {}}
               : Ask(queries_[i]);
@@ -213,13 +216,23 @@ int64_t EvaluationJob::SourceRank(size_t query_index) const {
   return found == ranked.end() ? 0 : found - ranked.begin() + 1;
 }
 
-void EvaluationJob::AddSourceRank(size_t query_index,
-                                  Evaluation& evaluation) const {
-  if (!queries_[query_index].source) return;
+void EvaluationJob::AddSource(size_t query_index,
+                              Evaluation& evaluation) const {
+  const EvaluationQuery& query = queries_[query_index];
+  if (!query.source) return;
+  const RankedAnswer& answer = answers_[query_index];
   ++evaluation.with_source;
   const int64_t rank = SourceRank(query_index);
   if (rank == 1) evaluation.source_first += 1;
   if (rank >= 1 && rank <= 5) evaluation.source_top5 += 1;
+  bool other = false;
+  for (size_t r = 0; r < answer.ranked.size(); ++r) {
+    if (answer.verified[r] == 0) continue;
+    const std::string& label = gallery_.shapes()[answer.ranked[r]].label;
+    if (answer.ranked[r] == query.source) evaluation.source_verified += 1;
+    other |= !label.empty() && label != query.label;
+  }
+  evaluation.other_verified += other ? 1 : 0;
 }
 
 void EvaluationJob::FillMatrix(Evaluation& evaluation) const {
@@ -293,15 +306,18 @@ absl::StatusOr<Evaluation> EvaluationJob::Run() {
       continue;
     }
     AddMeasures(q, evaluation);
-    AddSourceRank(q, evaluation);
+    AddSource(q, evaluation);
   }
   DivideByQueries(evaluation.mean);
   for (auto& [label, measures] : evaluation.per_class) {
     DivideByQueries(measures);
   }
   if (evaluation.with_source > 0) {
-    evaluation.source_first /= static_cast<double>(evaluation.with_source);
-    evaluation.source_top5 /= static_cast<double>(evaluation.with_source);
+    for (double* share :
+         {&evaluation.source_first, &evaluation.source_top5,
+          &evaluation.source_verified, &evaluation.other_verified}) {
+      *share /= static_cast<double>(evaluation.with_source);
+    }
   }
   FillMatrix(evaluation);
   ARGMESH_RETURN_IF_ERROR(WriteScores());

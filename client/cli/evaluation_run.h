@@ -28,7 +28,7 @@ struct EvaluateArguments {
   std::string scores;   // file for the raw scores; empty for none
   int jobs = 2;         // queries at a time
   bool exact = false;
-  bool rerank = false;  // global only
+  bool rerank = false;
 };
 
 // Of one query, or the mean of many.
@@ -75,6 +75,10 @@ struct Evaluation {
   int64_t with_source = 0;
   double source_first = 0;
   double source_top5 = 0;
+  // Of the same queries: the share whose shape was verified to contain them,
+  // and the share for which a shape of another class was.
+  double source_verified = 0;
+  double other_verified = 0;
   bool has_sources = false;  // the queries came from a table
 
   double seconds = 0;

@@ -52,6 +52,11 @@ CHANGES = {
          "--size-noise", "0.003"),
         5,
     ),
+    "disc": (
+        "shrec07_dev",
+        ("--similarity", "--disc", "0.12"),
+        5,
+    ),
     "cuts": (
         "shrec16_cuts_dev",
         ("--only", "cuts/", "--source-prefix", "null/"),
@@ -68,6 +73,7 @@ GRAPH = ("--mode", "global", "--ranking", "graph")
 FUSED = ("--mode", "global")
 RERANKED = ("--mode", "global", "--rerank")
 PARTIAL = ("--mode", "partial")
+PARTIAL_RERANKED = ("--mode", "partial", "--rerank")
 
 # (key, title) of a change and what it does.
 WHOLE = (
@@ -85,6 +91,8 @@ PIECES = (
     ("half-z", "half, cut across z"),
     ("piece-30", "30 % cut off by a random plane, 2,000 vertices, .3 % noise"),
 )
+# Too featureless to say what it is a part of.
+DISC = (("disc", "flattest disc of 60, radius .12 of the shape's size"),)
 
 
 def _whole(section, collection, quick=True):
@@ -105,6 +113,9 @@ ROWS = (
     + [Row("changed-graph", f"graph-{key}", title, "shrec07", GRAPH, key,
            False) for key, title in WHOLE]
     + [Row("partial", f"partial-{key}", title, "shrec07", PARTIAL, key)
+       for key, title in PIECES + DISC]
+    + [Row("partial-reranked", f"partial-reranked-{key}",
+           f"{title}, re-ranked", "shrec07", PARTIAL_RERANKED, key)
        for key, title in PIECES]
     + _whole("resampled", "shrec07-3000", False)
     + [Row("shrec16", f"partial-{key}", f"animals with {key}, other poses",

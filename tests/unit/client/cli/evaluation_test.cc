@@ -99,8 +99,11 @@ TEST(JsonOfAnEvaluation, HasTheKeysOfTheContract) {
   evaluation.has_sources = true;
   evaluation.with_source = 2;
   evaluation.source_first = 0.5;
+  evaluation.source_verified = 0.25;
   json = ToJson(evaluation);
   EXPECT_EQ(json["source_first"], 0.5);
+  EXPECT_EQ(json["source_verified"], 0.25);
+  EXPECT_EQ(json["other_class_verified"], 0);
   EXPECT_EQ(json["source_top5"], 0.0);
 }
 
