@@ -1,5 +1,6 @@
 #include "core/containment/containment_match.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -33,6 +34,14 @@ constexpr size_t kCoarseSamples = 256;
 constexpr size_t kFineSamples = 600;
 constexpr float kWorthRefining = 0.25F;  // a look that is refined at all
 constexpr float kPlainHit = 0.92F;       // a look at which drawing stops
+// Other places: how far their middles are apart, what a look must show of them,
+// how often one of them and all of them are refined, and by how much F may be
+// less than the first's.
+constexpr float kApart = 0.3F;
+constexpr float kPromising = 0.6F;
+constexpr int kSpotTries = 3;
+constexpr int kMaxTries = 40;
+constexpr double kAsGoodCover = 0.05;
 
 struct Effort {
   int places;  // looked at
@@ -59,17 +68,16 @@ float LookAt(const Similarity& place, const LaidSurface& laid,
   return (glance * kGlance + rest * (kLook - kGlance)) / float{kLook};
 }
 
-// Places drawn from each of `pairs` in turn, best first; equal covers stay in
-// the order they were drawn in.
+// Places drawn from each of `pairs` in turn, until one covers `enough`, best
+// first; equal covers stay in the order they were drawn in.
 std::vector<Placed> LookAtPlaces(std::span<const WindowPairs> pairs,
                                  const LaidSurface& laid,
                                  const SampledSurface& target, int count,
-                                 Random& random) {
+                                 float enough, Random& random) {
   std::vector<Placed> placed;
   float best = 0;
-  for (int draw = 0;
-       draw < count * kDrawsPerPlace &&
-       static_cast<int>(placed.size()) < count && best < kPlainHit;
+  for (int draw = 0; draw < count * kDrawsPerPlace &&
+                     static_cast<int>(placed.size()) < count && best < enough;
        ++draw) {
     const WindowPairs& drawn = pairs[static_cast<size_t>(draw) % pairs.size()];
     const std::optional<Similarity> place = drawn.Draw(random);
@@ -121,7 +129,7 @@ Found FindPlace(std::span<const WindowPairs> pairs, const LaidSurface& laid,
                 const SampledSurface& target, const Effort& effort,
                 Random& random) {
   std::vector<Placed> placed =
-      LookAtPlaces(pairs, laid, target, effort.places, random);
+      LookAtPlaces(pairs, laid, target, effort.places, kPlainHit, random);
   placed.resize(std::min(placed.size(), effort.refined));
   Placed best;
   for (Placed& candidate : placed) {
@@ -161,6 +169,37 @@ Eigen::Matrix4d OwnUnits(const Similarity& place, const WindowFrame& query,
   return to * between * from;
 }
 
+// The pairs of the best shifts.
+std::vector<WindowPairs> PairsOfShifts(const QueryWindows& query,
+                                       const PreparedTarget& target,
+                                       const ShapeVotes& votes,
+                                       const VerifyOptions& options) {
+  std::vector<WindowPairs> pairs;
+  const std::array<int, kNumShifts> shifts = ShiftsByVotes(votes);
+  for (const int shift : std::span(shifts).first<kShiftsTried>()) {
+    WindowPairs of_shift(query, options.weights, options.flipped, target,
+                         shift);
+    if (!of_shift.empty()) pairs.push_back(std::move(of_shift));
+  }
+  return pairs;
+}
+
+// A place of its own on a target, in the target's frame.
+struct Spot {
+  Eigen::Vector3f middle;
+  int tries = 0;
+  float fine = 0;  // the best F of the tries
+  Similarity place;
+};
+
+// The spot that a place is at, a new one when it is apart from all.
+Spot& SpotOf(const Similarity& place, std::vector<Spot>& spots) {
+  for (Spot& spot : spots) {
+    if ((spot.middle - place.shift).norm() <= kApart * place.scale) return spot;
+  }
+  return spots.emplace_back(Spot{place.shift, 0, 0, place});
+}
+
 double Power8(double x) {
   const double x2 = x * x;
   return x2 * x2 * (x2 * x2);
@@ -176,13 +215,8 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
   const LaidSurface laid = MakeLaidSurface(query, options.flipped);
   const Effort& effort = options.thorough ? kThorough : kQuick;
   Random random(options.seed);
-  std::vector<WindowPairs> pairs;
-  const std::array<int, kNumShifts> shifts = ShiftsByVotes(votes);
-  for (const int shift : std::span(shifts).first<kShiftsTried>()) {
-    WindowPairs of_shift(query, options.weights, options.flipped, target,
-                         shift);
-    if (!of_shift.empty()) pairs.push_back(std::move(of_shift));
-  }
+  const std::vector<WindowPairs> pairs =
+      PairsOfShifts(query, target, votes, options);
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   Found found;
   if (!pairs.empty()) {
@@ -205,6 +239,62 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(const QueryWindows& query,
                           static_cast<double>(found.place.scale));
   }
   return match;
+}
+
+absl::StatusOr<std::vector<Eigen::Matrix4d>> FindOtherPlaces(
+    const QueryWindows& query, const PreparedTarget& target,
+    const ShapeVotes& votes, const ContainmentMatch& match,
+    const VerifyOptions& options, const StopToken& stop) {
+  std::vector<Eigen::Matrix4d> others;
+  const std::vector<WindowPairs> pairs =
+      PairsOfShifts(query, target, votes, options);
+  if (pairs.empty()) return others;
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  const LaidSurface laid = MakeLaidSurface(query, options.flipped);
+  Random random(options.seed + 2);
+  const std::vector<Placed> placed = LookAtPlaces(
+      pairs, laid, target.surface, kThorough.places, /*enough=*/2, random);
+  // A query lies about the origin of its frame.
+  const Eigen::Vector3d first =
+      (match.transform * query.frame.origin.homogeneous()).head<3>();
+  std::vector<Spot> spots(1);
+  spots[0].middle =
+      (target.frame.scale * (first - target.frame.origin)).cast<float>();
+  spots[0].tries = kSpotTries;
+  int tries = 0;
+  for (const Placed& candidate : placed) {
+    if (candidate.cover < kPromising || tries == kMaxTries) break;
+    Spot& spot = SpotOf(candidate.place, spots);
+    if (spot.tries == kSpotTries) continue;
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    ++spot.tries;
+    ++tries;
+    Similarity place = candidate.place;
+    Refine(kCoarseRefinement, laid, target.surface, candidate.expected_scale,
+           place);
+    Refine(kFineRefinement, laid, target.surface, candidate.expected_scale,
+           place);
+    const float fine =
+        Cover(place, laid, 0, kFineSamples, target.surface, kFine);
+    Spot& reached = SpotOf(place, spots);
+    if (fine > reached.fine) {
+      reached.fine = fine;
+      reached.place = place;
+    }
+  }
+  spots.erase(spots.begin());
+  std::erase_if(spots, [&](const Spot& spot) {
+    return spot.fine < match.fine_cover - kAsGoodCover;
+  });
+  std::stable_sort(
+      spots.begin(), spots.end(),
+      [](const Spot& a, const Spot& b) { return a.fine > b.fine; });
+  spots.resize(std::min(spots.size(), kMaxOtherPlaces));
+  others.reserve(spots.size());
+  for (const Spot& spot : spots) {
+    others.push_back(OwnUnits(spot.place, query.frame, target.frame));
+  }
+  return others;
 }
 
 }  // namespace argmesh

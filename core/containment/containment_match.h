@@ -6,14 +6,16 @@
 // size is F. Proper rotations only: a mirrored copy is another shape.
 //
 // Repeats  equal query, target and options give equal bits.
-// Fails    kCancelled, kDeadlineExceeded within 10 ms of the token's stop
+// Fails    kCancelled, kDeadlineExceeded within 20 ms of the token's stop
 // Cost     6 ms, or 18 ms when thorough. Thread-safe.
 #ifndef ARGMESH_CORE_CONTAINMENT_CONTAINMENT_MATCH_H_
 #define ARGMESH_CORE_CONTAINMENT_CONTAINMENT_MATCH_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/base/stop_token.h"
@@ -35,6 +37,8 @@ struct ContainmentMatch {
   // Homogeneous, from the query's own units to the target's own units;
   // identity while no transform was found (coarse_cover == 0).
   Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  // Where else the query lies, as `transform`; see FindOtherPlaces.
+  std::vector<Eigen::Matrix4d> other_places;
   double query_coverage = 0;  // share of the query's area on the target, 0 .. 1
   double target_coverage = 0;  // share of the target's area under the query
 };
@@ -52,6 +56,19 @@ absl::StatusOr<ContainmentMatch> VerifyContainment(
     const QueryWindows& query, const PreparedTarget& target,
     const ShapeVotes& votes, const VerifyOptions& options = {},
     const StopToken& stop = {});
+
+inline constexpr size_t kMaxOtherPlaces = 15;
+
+// Places of the target on which the query lies as well as on `match`, which is
+// verified there: legs of a table. Their middles are at least 0.3 of the
+// query's size apart, and F is at most 0.05 less than the match's. Best first;
+// turns of the query about its own middle are no other places.
+//
+// Fails, Repeats  as VerifyContainment. Cost 20 ms.
+absl::StatusOr<std::vector<Eigen::Matrix4d>> FindOtherPlaces(
+    const QueryWindows& query, const PreparedTarget& target,
+    const ShapeVotes& votes, const ContainmentMatch& match,
+    const VerifyOptions& options = {}, const StopToken& stop = {});
 
 }  // namespace argmesh
 

@@ -21,11 +21,15 @@ namespace {
 constexpr double kIndistinct = 0.28;
 constexpr double kDistinctive = 0.4;
 constexpr double kCovered = 0.9;      // F that counts as lying on a shape
-constexpr double kCommonShare = 0.1;  // of verified shapes: too many
+constexpr double kCommonShare = 0.1;  // of verified shapes: too many,
+constexpr int64_t kCommonShapes = 3;  // if there are so many of them
 constexpr double kTieMargin = 0.1;    // of scores
 // Votes inside out, in votes as given, from which on that is tried.
 constexpr double kWorthTurning = 0.9;
 constexpr float kSettled = 0.98F;  // F that more effort cannot raise much
+// Of as many candidates the windows stay in memory between the stages, 0.2 MB
+// each; those of others are loaded again.
+constexpr size_t kKeptWindows = 256;
 
 absl::Status CheckLimit(const char* name, int value) {
   if (value >= 1) return absl::OkStatus();
@@ -44,8 +48,8 @@ absl::Status CheckOptions(const RankContainmentOptions& options) {
 // One shape on its way through the chain.
 struct Candidate {
   ShapeVotes votes;
-  std::shared_ptr<const TargetWindows> windows;
-  std::shared_ptr<const PreparedTarget> prepared;
+  bool loaded = false;
+  std::shared_ptr<const TargetWindows> windows;  // null: not kept
   ContainmentMatch match;
 };
 
@@ -121,7 +125,7 @@ class Chain {
     ranking.loaded = static_cast<int64_t>(candidates_.size());
     ranking.exact_time = watch.Lap();
     ARGMESH_RETURN_IF_ERROR(Verify());
-    ranking.common_share = CommonShare();
+    ranking.laid = static_cast<int64_t>(num_verified_);
     Report(ranking);
     ranking.verify_time = watch.Lap();
     return ranking;
@@ -130,43 +134,64 @@ class Chain {
  private:
   absl::Status VoteOn(Candidate& candidate) const {
     ARGMESH_RETURN_IF_ERROR(stop_.Check());
-    ARGMESH_ASSIGN_OR_RETURN(candidate.windows, load_(candidate.votes.slot));
-    if (candidate.windows == nullptr) return absl::OkStatus();
-    candidate.votes = VoteExactly(query_, votes_, candidate.votes, flipped_,
-                                  *candidate.windows);
+    ARGMESH_ASSIGN_OR_RETURN(const auto windows, load_(candidate.votes.slot));
+    if (windows == nullptr) return absl::OkStatus();
+    candidate.loaded = true;
+    if (static_cast<size_t>(&candidate - candidates_.data()) < kKeptWindows) {
+      candidate.windows = windows;
+    }
+    candidate.votes =
+        VoteExactly(query_, votes_, candidate.votes, flipped_, *windows);
     candidate.match.votes = candidate.votes.score;
     candidate.match.score = candidate.votes.score;
     candidate.match.flipped = flipped_;
     return absl::OkStatus();
   }
 
-  absl::Status VerifyOne(Candidate& candidate, bool thorough) const {
-    if (candidate.match.fine_cover >= kSettled) return absl::OkStatus();
+  VerifyOptions OptionsOf(bool thorough) const {
     VerifyOptions verify;
     verify.thorough = thorough;
     verify.flipped = flipped_;
     verify.seed = options_.seed + (thorough ? 1 : 0);
     verify.weights = votes_.weights;
-    if (candidate.prepared == nullptr) {
-      candidate.prepared = std::make_shared<PreparedTarget>(*candidate.windows);
+    return verify;
+  }
+
+  absl::Status VerifyOne(Candidate& candidate, bool thorough) const {
+    ARGMESH_RETURN_IF_ERROR(stop_.Check());
+    const bool settled = candidate.match.fine_cover >= kSettled;
+    if (settled && !thorough) return absl::OkStatus();
+    std::shared_ptr<const TargetWindows> windows = candidate.windows;
+    if (windows == nullptr) {
+      ARGMESH_ASSIGN_OR_RETURN(windows, load_(candidate.votes.slot));
+      if (windows == nullptr) return absl::OkStatus();
     }
-    ARGMESH_ASSIGN_OR_RETURN(const ContainmentMatch match,
-                             VerifyContainment(query_, *candidate.prepared,
-                                               candidate.votes, verify, stop_));
-    if (match.score >= candidate.match.score) candidate.match = match;
+    const PreparedTarget target(*windows);
+    const VerifyOptions verify = OptionsOf(thorough);
+    if (!settled) {
+      ARGMESH_ASSIGN_OR_RETURN(
+          ContainmentMatch match,
+          VerifyContainment(query_, target, candidate.votes, verify, stop_));
+      if (match.score >= candidate.match.score) {
+        candidate.match = std::move(match);
+      }
+    }
+    if (!thorough || !candidate.match.verified) return absl::OkStatus();
+    ARGMESH_ASSIGN_OR_RETURN(candidate.match.other_places,
+                             FindOtherPlaces(query_, target, candidate.votes,
+                                             candidate.match, verify, stop_));
     return absl::OkStatus();
   }
 
   absl::Status VoteOnWindows() {
     for (const ShapeVotes& votes : votes_.shapes) {
-      candidates_.push_back({votes, nullptr, nullptr, {}});
+      candidates_.push_back({votes, false, nullptr, {}});
     }
     ARGMESH_RETURN_IF_ERROR(
         ForEach(parallel_for_, candidates_,
                 [this](Candidate& candidate) { return VoteOn(candidate); }));
-    std::erase_if(candidates_, [](const Candidate& candidate) {
-      return candidate.windows == nullptr;
-    });
+    std::erase_if(candidates_,
+                  [](const Candidate& candidate) { return !candidate.loaded; });
     KeepBest(candidates_, options_.exact_limit,
              [](const Candidate& c) { return c.votes.score; });
     return absl::OkStatus();
@@ -200,19 +225,16 @@ class Chain {
                    });
   }
 
-  double CommonShare() const {
-    if (num_verified_ == 0) return 0;
+  void Report(ContainmentRanking& ranking) {
     const auto covered = std::count_if(
         candidates_.begin(),
         candidates_.begin() + static_cast<std::ptrdiff_t>(num_verified_),
         [](const Candidate& c) { return c.match.fine_cover > kCovered; });
-    return static_cast<double>(covered) / static_cast<double>(num_verified_);
-  }
-
-  void Report(ContainmentRanking& ranking) {
+    const bool common = covered >= kCommonShapes &&
+                        static_cast<double>(covered) >
+                            kCommonShare * static_cast<double>(num_verified_);
     ranking.generic = ranking.distinctiveness < kIndistinct ||
-                      (ranking.distinctiveness < kDistinctive &&
-                       ranking.common_share > kCommonShare);
+                      (ranking.distinctiveness < kDistinctive && common);
     KeepBest(candidates_, options_.limit,
              [](const Candidate& c) { return c.match.score; });
     for (const Candidate& candidate : candidates_) {
@@ -222,10 +244,11 @@ class Chain {
   }
 
   static void MarkTies(std::vector<RankedContainment>& matches) {
-    if (matches.size() < 2 || !matches[0].match.verified) return;
-    for (size_t i = 1; i < matches.size(); ++i) {
+    for (size_t i = 0; i < matches.size(); ++i) {
       const ContainmentMatch& match = matches[i].match;
-      if (!match.verified ||
+      if (!match.verified) continue;
+      matches[i].tied |= !match.other_places.empty();
+      if (i == 0 || !matches[0].match.verified ||
           match.score < matches[0].match.score - kTieMargin) {
         continue;
       }

@@ -7,6 +7,7 @@
 //              whatever `parallel_for` does.
 // Fails        what `load` fails with; kInvalidArgument for an option outside
 //              its range; kCancelled, kDeadlineExceeded
+// Memory       0.2 MB for each of the first 256 candidates, 1 MB a thread.
 // Cost         index 10 ms + 25 us a shape, exact voting 1 ms for each of
 //              `exact_limit`, verification 8 ms for each of `verify_limit` and
 //              20 ms for each of `thorough_limit`, over the threads.
@@ -41,29 +42,31 @@ struct RankContainmentOptions {
 struct RankedContainment {
   int64_t slot = 0;
   ContainmentMatch match;
-  // Verified like the first, with a score within 0.1 of it: which of the tied
-  // holds the query cannot be told.
+  // Verified, and the query lies at other places of it as well, or it and the
+  // first are verified with scores within 0.1: which place, or which of the
+  // tied shapes the query is from cannot be told.
   bool tied = false;
 };
 
 struct ContainmentRanking {
   std::vector<RankedContainment> matches;  // by score, descending, then slot
   // The query fits too much to say anything: its windows are common
-  // (distinctiveness < 0.28), or fairly common (< 0.4) while more than a tenth
-  // of the shapes verified hold it. Then nothing counts as found whatever
-  // `verified` says.
+  // (distinctiveness < 0.28), or fairly common (< 0.4) while three shapes and
+  // more than a tenth of those it was laid on hold it (F > 0.9). Then nothing
+  // counts as found whatever `verified` says.
   bool generic = false;
   double distinctiveness = 0;  // 0 .. 1
-  double common_share = 0;     // verified shapes with F > 0.9, 0 .. 1
   int64_t considered = 0;      // shapes in the index
-  int64_t loaded = 0;
+  int64_t loaded = 0;          // whose windows were compared
+  int64_t laid = 0;            // that the query was laid on
   absl::Duration index_time;
   absl::Duration exact_time;
   absl::Duration verify_time;
 };
 
 // The windows of a slot; called from any thread, for at most `exact_limit`
-// slots. Null leaves a slot out that went since the index was read.
+// slots, up to three times each. Null leaves a slot out that went since the
+// index was read.
 using LoadWindows =
     std::function<absl::StatusOr<std::shared_ptr<const TargetWindows>>(
         int64_t slot)>;

@@ -91,6 +91,7 @@ SurfaceSamples SampleSurface(const TriangleMesh& mesh,
   SurfaceSamples ordered;
   ordered.positions.reserve(static_cast<size_t>(count) + 1);
   ordered.normals.reserve(static_cast<size_t>(count) + 1);
+  ordered.faces.reserve(static_cast<size_t>(count) + 1);
   for (int f = 0; f < mesh.num_faces(); ++f) {
     passed += areas[f];
     if (passed <= next) continue;
@@ -113,6 +114,7 @@ SurfaceSamples SampleSurface(const TriangleMesh& mesh,
       const bool cancels = normal.squaredNorm() < 1e-18;
       ordered.normals.emplace_back(
           (cancels ? face_normal : normal.normalized()).cast<float>());
+      ordered.faces.push_back(f);
       next += step;
     }
   }
@@ -120,6 +122,7 @@ SurfaceSamples SampleSurface(const TriangleMesh& mesh,
     const auto j = static_cast<size_t>(random.Below(i));
     std::swap(ordered.positions[i - 1], ordered.positions[j]);
     std::swap(ordered.normals[i - 1], ordered.normals[j]);
+    std::swap(ordered.faces[i - 1], ordered.faces[j]);
   }
   return ordered;
 }

@@ -16,6 +16,7 @@ struct SurfaceSamples {
   // Any head of these is spread over the whole surface.
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;  // unit
+  std::vector<int32_t> faces;            // that each lies on
 };
 
 // The mesh with its area centroid in the origin and area 1. `areas` are those

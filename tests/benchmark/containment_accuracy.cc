@@ -199,17 +199,16 @@ Row Judge(const Gallery& gallery, const Query& query,
 // The first answers and the source's.
 void PrintRow(const Gallery& gallery, const Query& query,
               const ContainmentRanking& ranking, size_t count) {
-  std::printf("%s Dq %.2f common %.2f%s", query.path.c_str(),
-              ranking.distinctiveness, ranking.common_share,
+  std::printf("%s Dq %.2f%s", query.path.c_str(), ranking.distinctiveness,
               ranking.generic ? " generic" : "");
   for (size_t i = 0; i < ranking.matches.size(); ++i) {
     const ContainmentMatch& match = ranking.matches[i].match;
     const std::string& path =
         gallery.shapes[static_cast<size_t>(ranking.matches[i].slot)].path;
     if (i >= count && path != query.source) continue;
-    std::printf("; %zu %s S %.3f C %.3f F %.3f%s", i + 1, path.c_str(),
-                match.votes, match.coarse_cover, match.fine_cover,
-                match.flipped ? " flipped" : "");
+    std::printf("; %zu %s S %.3f C %.3f F %.3f places %zu%s", i + 1,
+                path.c_str(), match.votes, match.coarse_cover, match.fine_cover,
+                match.other_places.size() + 1, match.flipped ? " flipped" : "");
   }
   std::printf("\n");
 }

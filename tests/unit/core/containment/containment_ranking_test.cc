@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/containment/covered_surface.h"
 #include "core/containment/query_windows.h"
 #include "core/containment/target_windows.h"
+#include "core/containment/window_index.h"
 #include "core/containment/window_words.h"
 #include "core/geometry/area.h"
 #include "core/synthesis/mesh_cut.h"
@@ -81,6 +81,72 @@ TEST(RankContainment, VerifiesAMovedPieceInItsSource) {
       EXPECT_FALSE(ranking.matches[i].match.verified) << i;
     }
   }
+}
+
+TEST(RankContainment, FindsEveryPlaceOfAPartThatIsThereSeveralTimes) {
+  const TriangleMesh& mug = MeshOf("mug");
+  const double length = mug.V.col(0).maxCoeff() - mug.V.col(0).minCoeff();
+  TriangleMesh shelf = mug;
+  for (int i = 1; i < 3; ++i) {
+    shelf = Join(shelf, Translated(mug, {1.5 * i * length, 0, 0}));
+  }
+  ASSERT_OK_AND_ASSIGN(const TargetWindows windows,
+                       ExtractTargetWindows(shelf));
+  const auto target = std::make_shared<const TargetWindows>(windows);
+  WindowIndex index;
+  index.Set(0, AssignWindowWords(windows));
+  ASSERT_OK_AND_ASSIGN(
+      const ContainmentRanking ranking,
+      RankContainment(Query(mug), index, [&](int64_t) { return target; }));
+  const RankedContainment& first = ranking.matches.at(0);
+  ASSERT_TRUE(first.match.verified);
+  EXPECT_TRUE(first.tied);
+  ASSERT_EQ(first.match.other_places.size(), 2U);
+  std::vector<double> shifts = {first.match.transform(0, 3)};
+  for (const Eigen::Matrix4d& place : first.match.other_places) {
+    shifts.push_back(place(0, 3));
+    // A mug that is turned about its axis nearly fits.
+    EXPECT_NEAR((place.topLeftCorner<3, 3>().determinant()), 1, 0.05);
+  }
+  std::sort(shifts.begin(), shifts.end());
+  EXPECT_NEAR(shifts[1] - shifts[0], 1.5 * length, 0.1 * length);
+  EXPECT_NEAR(shifts[2] - shifts[1], 1.5 * length, 0.1 * length);
+}
+
+TEST(RankContainment, FindsOnePlaceOfAPartThatIsThereOnce) {
+  const MovedPiece piece = CutAndMove(MeshOf("teapot"), 0, 8);
+  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking,
+                       Rank(Query(piece.mesh)));
+  ASSERT_TRUE(ranking.matches[0].match.verified);
+  EXPECT_TRUE(ranking.matches[0].match.other_places.empty());
+}
+
+TEST(RankContainment, LoadsAgainWhatItDidNotKeep) {
+  // More shapes than are kept in memory, all of them the same few.
+  WindowIndex index;
+  constexpr int64_t kMany = 300;
+  const auto num = static_cast<int64_t>(Gallery().windows.size());
+  for (int64_t slot = 0; slot < kMany; ++slot) {
+    index.Set(slot, AssignWindowWords(
+                        *Gallery().windows[static_cast<size_t>(slot % num)]));
+  }
+  int64_t loads = 0;
+  const auto load = [&](int64_t slot) {
+    ++loads;
+    return Gallery().windows[static_cast<size_t>(slot % num)];
+  };
+  ASSERT_OK_AND_ASSIGN(
+      const ContainmentRanking ranking,
+      RankContainment(
+          Query(CutAndMove(MeshOf("chair"), 2, 11).mesh), index, load,
+          {.limit = kMany, .exact_limit = kMany, .verify_limit = kMany}));
+  EXPECT_EQ(ranking.laid, kMany);
+  EXPECT_GT(loads, kMany);
+  EXPECT_EQ(ranking.matches[0].slot % num, Gallery().SlotOf("chair"));
+  const auto verified = std::count_if(
+      ranking.matches.begin(), ranking.matches.end(),
+      [](const RankedContainment& ranked) { return ranked.match.verified; });
+  EXPECT_EQ(verified, kMany / num) << "every copy of the chair";
 }
 
 TEST(RankContainment, FindsANoisyPiece) {
@@ -233,41 +299,6 @@ TEST(RankContainment, StopsWhenToldTo) {
   EXPECT_THAT(
       Rank(Query(MeshOf("mug")), {}, {}, StopToken({}, absl::InfinitePast())),
       StatusIs(absl::StatusCode::kDeadlineExceeded, _));
-}
-
-TEST(CoveredSurface, IsThePieceThatWasCut) {
-  const TriangleMesh& mesh = MeshOf("teapot");
-  const MovedPiece piece = CutAndMove(mesh, 0, 8);
-  const QueryWindows query = Query(piece.mesh);
-  ASSERT_OK_AND_ASSIGN(const ContainmentRanking ranking, Rank(query));
-  const ContainmentMatch& match = ranking.matches[0].match;
-  ASSERT_TRUE(match.verified);
-  const std::vector<bool> faces = CoveredFaces(query, match, mesh);
-  const double middle =
-      (mesh.V.col(0).minCoeff() + mesh.V.col(0).maxCoeff()) / 2;
-  const double size = std::sqrt(ComputeFaceAreas(mesh).sum());
-  int wrong = 0;
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    const double x = (mesh.V(mesh.F(f, 0), 0) + mesh.V(mesh.F(f, 1), 0) +
-                      mesh.V(mesh.F(f, 2), 0)) /
-                     3;
-    if (std::abs(x - middle) < 0.06 * size) continue;
-    wrong += faces[static_cast<size_t>(f)] != (x > middle);
-  }
-  EXPECT_LT(wrong, 0.02 * mesh.num_faces());
-  const TargetWindows& target =
-      *Gallery().windows[static_cast<size_t>(ranking.matches[0].slot)];
-  const std::vector<bool> points = CoveredPoints(query, match, target);
-  const double share =
-      static_cast<double>(std::count(points.begin(), points.end(), true)) /
-      static_cast<double>(points.size());
-  EXPECT_NEAR(share, match.target_coverage, 0.08);
-}
-
-TEST(CoveredSurface, OfNoTransformIsNothing) {
-  const TriangleMesh& mesh = MeshOf("mug");
-  const std::vector<bool> faces = CoveredFaces(Query(mesh), {}, mesh);
-  EXPECT_EQ(std::count(faces.begin(), faces.end(), true), 0);
 }
 
 }  // namespace
