@@ -222,7 +222,12 @@ Json ToJson(const v1::Match& match) {
                            {"tied", containment.tied()},
                            {"window_score", containment.window_score()},
                            {"surface_score", containment.surface_score()},
+                           {"inside_out", containment.inside_out()},
                            {"transform", containment.transform()}};
+    Json& others = json["containment"]["other_places"] = Json::array();
+    for (const v1::Placement& place : containment.other_places()) {
+      others.push_back(place.transform());
+    }
   }
   if (match.has_explanation()) {
     Json terms = Json::array();

@@ -33,8 +33,15 @@ std::string NoteOf(const v1::Match& match) {
   if (match.handedness() == v1::HANDEDNESS_MIRRORED) {
     notes.emplace_back("mirrored");
   }
-  if (match.containment().verified()) notes.emplace_back("contains the query");
-  if (match.containment().tied()) notes.emplace_back("tied");
+  const v1::Containment& containment = match.containment();
+  if (containment.verified()) notes.emplace_back("contains the query");
+  if (containment.other_places_size() > 0) {
+    notes.push_back("at " +
+                    std::to_string(containment.other_places_size() + 1) +
+                    " places");
+  }
+  if (containment.inside_out()) notes.emplace_back("inside out");
+  if (containment.tied()) notes.emplace_back("tied");
   return absl::StrJoin(notes, ", ");
 }
 

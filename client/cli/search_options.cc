@@ -53,7 +53,7 @@ void AddMatchOptions(CLI::App* command, MatchArguments& arguments) {
 void AddRerankOption(CLI::App* command, bool& rerank) {
   command->add_flag(
       "--rerank", rerank,
-      "Order a global answer by the neighbourhoods of its shapes");
+      "Order the answer by how alike its shapes are to each other, too");
 }
 
 void AddFilterOption(CLI::App* command, std::string& filter) {

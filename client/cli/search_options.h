@@ -24,7 +24,7 @@ struct MatchArguments {
 // --collection, --mode, --attributes, --levels, --ranking.
 void AddMatchOptions(CLI::App* command, MatchArguments& arguments);
 
-// --rerank, of a global search.
+// --rerank
 void AddRerankOption(CLI::App* command, bool& rerank);
 
 v1::SearchMode ModeOf(const MatchArguments& arguments);

@@ -10,6 +10,8 @@
 #include "core/base/stopwatch.h"
 #include "core/containment/containment_ranking.h"
 #include "core/containment/window_codec.h"
+#include "core/containment/window_index.h"
+#include "core/containment/window_words.h"
 
 namespace argmesh {
 namespace {
@@ -59,6 +61,7 @@ RankContainmentOptions OptionsOf(const ContainmentQuery& query) {
   options.exact_limit = query.candidates > 0 ? query.candidates : kExactLimit;
   options.exact_limit =
       std::clamp(options.exact_limit, std::min(query.limit, all), all);
+  options.verify_limit = std::max(options.verify_limit, query.candidates);
   if (query.exact) {
     options.exact_limit = all;
     options.verify_limit = all;
@@ -76,6 +79,24 @@ ContainmentMatch WholeMatch() {
   match.verified = true;
   match.query_coverage = match.target_coverage = 1;
   return match;
+}
+
+// From what the windows and the graphs say to what is answered.
+ContainingShape Judge(RankedContainment ranked, MatchResult graph, bool generic,
+                      bool same_bytes) {
+  ContainingShape shape;
+  shape.match = std::move(ranked.match);
+  shape.graph = std::move(graph);
+  shape.tied = ranked.tied;
+  if (same_bytes) {
+    shape.match = WholeMatch();
+    shape.graph.score = 1;
+  } else if (generic) {
+    shape.match.verified = shape.tied = false;
+    shape.match.other_places.clear();
+  }
+  shape.score = ContainmentScore(shape.match, shape.graph.score);
+  return shape;
 }
 
 bool RanksBefore(const ContainingShape& a, const ContainingShape& b) {
@@ -125,13 +146,11 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
   answer.graph_time = watch.Lap();
   for (size_t i = 0; i < ranking.matches.size(); ++i) {
     RankedContainment& ranked = ranking.matches[i];
-    ContainingShape shape{gallery.entry(ranked.slot), 0, std::move(graphs[i]),
-                          std::move(ranked.match), ranked.tied};
-    if (shape.entry->record.sha256 == query.sha256) {
-      shape.match = WholeMatch();
-      shape.graph.score = 1;
-    }
-    shape.score = ContainmentScore(shape.match, shape.graph.score);
+    const GalleryEntryPtr& entry = gallery.entry(ranked.slot);
+    ContainingShape shape =
+        Judge(std::move(ranked), std::move(graphs[i]), ranking.generic,
+              entry->record.sha256 == query.sha256);
+    shape.entry = entry;
     if (shape.score >= query.min_score &&
         shape.match.query_coverage >= query.min_query_coverage) {
       answer.shapes.push_back(std::move(shape));
@@ -143,11 +162,32 @@ absl::StatusOr<ContainmentAnswer> ContainmentRanker::Rank(
   answer.generic = ranking.generic;
   answer.considered = query.slots.count;
   answer.matched = ranking.loaded;
+  answer.laid = ranking.laid;
   answer.damaged = loader.damaged();
   answer.candidate_time = ranking.index_time;
   answer.match_time = ranking.exact_time;
   answer.verification_time = ranking.verify_time;
   return answer;
+}
+
+absl::StatusOr<ContainingShape> ContainmentRanker::Match(
+    const ContainmentPair& pair, const StopToken& stop) const {
+  WindowIndex alone;
+  alone.Set(0, AssignWindowWords(pair.target));
+  // Borrowed for the call.
+  const std::shared_ptr<const TargetWindows> target(
+      std::shared_ptr<const TargetWindows>(), &pair.target);
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainmentRanking ranking,
+      RankContainment(
+          pair.query, alone, [&](int64_t) { return target; }, {.limit = 1},
+          [this](int64_t count, const std::function<void(int64_t)>& body) {
+            pool_.ParallelFor(WorkClass::kSearch, count, body);
+          },
+          stop));
+  return Judge(std::move(ranking.matches.at(0)),
+               MatchPartial(pair.query_graph, pair.target_graph, pair.match),
+               ranking.generic, pair.same_bytes);
 }
 
 }  // namespace argmesh

@@ -32,7 +32,9 @@ struct ContainmentQuery {
   // Of the query's bytes: a shape of the same bytes holds it for certain.
   std::optional<Sha256Digest> sha256;
   int limit = 10;
-  int candidates = 0;  // shapes whose windows are read; 0: as many as pay
+  // Shapes whose windows are read and that the query is laid on; 0: as many as
+  // pay, 150 and of them 100.
+  int candidates = 0;
   bool exact = false;  // all of them
   double min_score = 0;
   double min_query_coverage = 0;
@@ -40,23 +42,35 @@ struct ContainmentQuery {
 };
 
 struct ContainingShape {
-  GalleryEntryPtr entry;
-  double score = 0;   // ContainmentScore
-  MatchResult graph;  // MatchPartial
+  GalleryEntryPtr entry;  // null in a ContainmentPair
+  double score = 0;       // ContainmentScore
+  MatchResult graph;      // MatchPartial
   ContainmentMatch match;
   bool tied = false;
 };
 
 struct ContainmentAnswer {
   std::vector<ContainingShape> shapes;  // by score, descending, then by id
+  // Then only a shape of the query's bytes is verified.
   bool generic = false;
   int64_t considered = 0;
   int64_t matched = 0;  // by their windows
+  int64_t laid = 0;     // that the query was laid on
   int64_t damaged = 0;  // candidates whose windows cannot be read
   absl::Duration candidate_time;
   absl::Duration match_time;
   absl::Duration verification_time;
   absl::Duration graph_time;
+};
+
+// One query and one target, stored or not.
+struct ContainmentPair {
+  const QueryWindows& query;
+  const MatchableGraph& query_graph;
+  const TargetWindows& target;
+  const MatchableGraph& target_graph;
+  MatchOptions match;       // of graphs
+  bool same_bytes = false;  // of the meshes
 };
 
 class ContainmentRanker {
@@ -68,6 +82,10 @@ class ContainmentRanker {
   absl::StatusOr<ContainmentAnswer> Rank(const GallerySnapshot& gallery,
                                          const ContainmentQuery& query,
                                          const StopToken& stop) const;
+
+  // What Rank would find of the target in a collection of its own.
+  absl::StatusOr<ContainingShape> Match(const ContainmentPair& pair,
+                                        const StopToken& stop) const;
 
  private:
   const Catalog& catalog_;

@@ -121,6 +121,7 @@ absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
   ARGMESH_ASSIGN_OR_RETURN(
       analyzed.computed,
       AnalyzeParsedMesh(parsed->mesh, settings, options, stop));
+  analyzed.mesh = std::move(parsed->mesh);
   return analyzed;
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/stop_token.h"
 #include "core/graph/compute_graph.h"
 #include "core/mesh/mesh_format.h"
+#include "core/mesh/triangle_mesh.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/engine_options.h"
 #include "server/engine/shape_record.h"
@@ -17,6 +18,7 @@
 namespace argmesh {
 
 struct AnalyzedMesh {
+  TriangleMesh mesh;  // as it came
   ComputedGraph computed;
   MeshFormat format = MeshFormat::kUnknown;
 };

@@ -60,11 +60,14 @@ absl::Status FillSurface(const TriangleMesh& repaired, const QueryNeeds& needs,
   return absl::OkStatus();
 }
 
-absl::StatusOr<ResolvedQuery> ResolveComputed(ComputedGraph computed,
+// `mesh` is what `computed` was made of.
+absl::StatusOr<ResolvedQuery> ResolveComputed(TriangleMesh mesh,
+                                              ComputedGraph computed,
                                               const QueryNeeds& needs,
                                               const StopToken& stop) {
   ResolvedQuery query;
   ARGMESH_RETURN_IF_ERROR(FillSurface(computed.repaired, needs, stop, query));
+  if (needs.surface) query.surface = {std::move(mesh), computed.labels};
   query.graph = {std::move(computed.graph), std::move(computed.labels),
                  computed.report};
   return query;
@@ -156,11 +159,34 @@ absl::StatusOr<StoredGraph> QueryResolver::ReadGraph(
   return stored;
 }
 
+absl::StatusOr<LabelledSurface> QueryResolver::ReadLabelledSurface(
+    const StoredGraph& stored) const {
+  absl::StatusOr<FaceLabels> labels = ParseFaceLabels(stored.labels);
+  if (!labels.ok()) return DamagedError(stored.record, labels.status());
+  ARGMESH_ASSIGN_OR_RETURN(TriangleMesh mesh, ReadMesh(stored.record));
+  if (labels->component.size() != static_cast<size_t>(mesh.num_faces())) {
+    return DamagedError(stored.record,
+                        absl::DataLossError("its labels are of another mesh"));
+  }
+  return LabelledSurface{std::move(mesh), *std::move(labels)};
+}
+
+absl::StatusOr<StoredSurface> QueryResolver::ReadSurface(
+    const ShapeRef& shape, const CollectionSettings& settings) const {
+  ARGMESH_ASSIGN_OR_RETURN(const StoredGraph stored,
+                           ReadGraph(shape, settings, true));
+  StoredSurface surface;
+  surface.sha256 = stored.record.sha256;
+  ARGMESH_ASSIGN_OR_RETURN(surface.graph, ParseStoredGraph(stored));
+  ARGMESH_ASSIGN_OR_RETURN(surface.surface, ReadLabelledSurface(stored));
+  return surface;
+}
+
 absl::StatusOr<ResolvedQuery> QueryResolver::ResolveStored(
     const ShapeRef& shape, const CollectionSettings& settings,
     const QueryNeeds& needs, const StopToken& stop) const {
   ARGMESH_ASSIGN_OR_RETURN(const StoredGraph stored,
-                           ReadGraph(shape, settings, false));
+                           ReadGraph(shape, settings, needs.surface));
   ResolvedQuery query;
   query.graph.report = stored.record.report;
   query.sha256 = stored.record.sha256;
@@ -168,9 +194,12 @@ absl::StatusOr<ResolvedQuery> QueryResolver::ResolveStored(
   if (needs.signature) {
     ARGMESH_ASSIGN_OR_RETURN(query.signature, ParseStoredSignature(stored));
   }
+  if (needs.surface) {
+    ARGMESH_ASSIGN_OR_RETURN(query.surface, ReadLabelledSurface(stored));
+  }
   if (needs.windows) {
-    ARGMESH_ASSIGN_OR_RETURN(const TriangleMesh mesh, ReadMesh(stored.record));
-    ARGMESH_ASSIGN_OR_RETURN(const RepairedMesh repaired, RepairMesh(mesh));
+    ARGMESH_ASSIGN_OR_RETURN(const RepairedMesh repaired,
+                             RepairMesh(query.surface->mesh));
     ARGMESH_RETURN_IF_ERROR(
         FillSurface(repaired.mesh, {.windows = true}, stop, query));
   }
@@ -189,7 +218,8 @@ absl::StatusOr<ResolvedQuery> QueryResolver::Resolve(
         AnalyzeMesh(mesh->bytes, mesh->format, settings, options_, stop));
     ARGMESH_ASSIGN_OR_RETURN(
         ResolvedQuery query,
-        ResolveComputed(std::move(analyzed.computed), needs, stop));
+        ResolveComputed(std::move(analyzed.mesh), std::move(analyzed.computed),
+                        needs, stop));
     query.sha256 = ComputeSha256(mesh->bytes);
     return query;
   }
@@ -206,22 +236,15 @@ absl::StatusOr<ResolvedQuery> QueryResolver::ResolveRegion(
     const ShapeRef& shape, std::span<const int32_t> nodes,
     const CollectionSettings& settings, const QueryNeeds& needs,
     const StopToken& stop) const {
-  ARGMESH_ASSIGN_OR_RETURN(const StoredGraph stored,
-                           ReadGraph(shape, settings, true));
-  ARGMESH_ASSIGN_OR_RETURN(const ShapeGraph graph, ParseStoredGraph(stored));
-  absl::StatusOr<FaceLabels> labels = ParseFaceLabels(stored.labels);
-  if (!labels.ok()) return DamagedError(stored.record, labels.status());
-  ARGMESH_ASSIGN_OR_RETURN(TriangleMesh mesh, ReadMesh(stored.record));
-  if (labels->component.size() != static_cast<size_t>(mesh.num_faces())) {
-    return DamagedError(stored.record,
-                        absl::DataLossError("its labels are of another mesh"));
-  }
+  ARGMESH_ASSIGN_OR_RETURN(StoredSurface stored, ReadSurface(shape, settings));
+  const ShapeGraph& graph = stored.graph;
+  auto& [mesh, labels] = stored.surface;
   const int num_nodes =
       graph.levels.empty() ? 0 : graph.levels.back().num_nodes();
-  ARGMESH_RETURN_IF_ERROR(KeepRegion(shape, *labels, nodes, num_nodes, mesh));
+  ARGMESH_RETURN_IF_ERROR(KeepRegion(shape, labels, nodes, num_nodes, mesh));
   ARGMESH_ASSIGN_OR_RETURN(ComputedGraph computed,
                            AnalyzeParsedMesh(mesh, settings, options_, stop));
-  return ResolveComputed(std::move(computed), needs, stop);
+  return ResolveComputed(std::move(mesh), std::move(computed), needs, stop);
 }
 
 }  // namespace argmesh

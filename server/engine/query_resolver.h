@@ -12,6 +12,8 @@
 #include "core/base/sha256.h"
 #include "core/base/stop_token.h"
 #include "core/containment/window_set.h"
+#include "core/graph/shape_graph.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/signature/shape_signature.h"
 #include "server/engine/catalog.h"
 #include "server/engine/engine_options.h"
@@ -23,13 +25,28 @@ namespace argmesh {
 // What a query is matched by, beside its graph.
 struct QueryNeeds {
   bool signature = false;
-  bool windows = false;
+  bool windows = false;  // with the surface
+  bool surface = false;
+};
+
+// A mesh as it came, and the nodes that its faces belong to.
+struct LabelledSurface {
+  TriangleMesh mesh;
+  FaceLabels labels;
+};
+
+// A stored shape with its mesh.
+struct StoredSurface {
+  Sha256Digest sha256 = {};  // of the mesh
+  ShapeGraph graph;
+  LabelledSurface surface;
 };
 
 struct ResolvedQuery {
   QueryGraph graph;
   std::optional<ShapeSignature> signature;  // as needed, never of a bare graph
   std::optional<QueryWindows> windows;      // as needed, never of a bare graph
+  std::optional<LabelledSurface> surface;   // as needed, never of a bare graph
   std::optional<Sha256Digest> sha256;       // of a mesh as it came, whole
 };
 
@@ -42,7 +59,8 @@ class QueryResolver {
 
   // Fails    kGraphVersionMismatch  a stored shape's collection has other
   //          settings than `settings`, or another version computed it
-  //          kMeshNotStored  windows of a stored shape whose mesh is not kept
+  //          kMeshNotStored  windows or surface of a stored shape whose mesh is
+  //          not kept
   //          kGraphInvalid; as AnalyzeMesh
   absl::StatusOr<ResolvedQuery> Resolve(const QueryShape& shape,
                                         const CollectionSettings& settings,
@@ -58,6 +76,10 @@ class QueryResolver {
       const CollectionSettings& settings, const QueryNeeds& needs,
       const StopToken& stop) const;
 
+  // Fails    kMeshNotStored, kGraphVersionMismatch, kStoredDataDamaged
+  absl::StatusOr<StoredSurface> ReadSurface(
+      const ShapeRef& shape, const CollectionSettings& settings) const;
+
  private:
   absl::StatusOr<StoredGraph> ReadGraph(const ShapeRef& shape,
                                         const CollectionSettings& settings,
@@ -66,6 +88,8 @@ class QueryResolver {
       const ShapeRef& shape, const CollectionSettings& settings,
       const QueryNeeds& needs, const StopToken& stop) const;
   absl::StatusOr<TriangleMesh> ReadMesh(const ShapeRecord& record) const;
+  absl::StatusOr<LabelledSurface> ReadLabelledSurface(
+      const StoredGraph& stored) const;  // read with its labels
 
   const EngineOptions& options_;
   const Catalog& catalog_;

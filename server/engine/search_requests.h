@@ -45,7 +45,7 @@ struct SearchQuery {
   std::vector<std::string> levels;  // as MatchOptions; kFieldInvalid: no such
   // A ShapeGraph as the query is always ranked by graphs.
   RankingMethod ranking = RankingMethod::kFused;
-  bool rerank = false;            // kFused and kGlobal only
+  bool rerank = false;            // kFused only
   int candidates = 0;             // of the first stage, >= 0; 0: as many as pay
   bool exact = false;             // every shape is a candidate
   int limit = 10;                 // 1 .. 1000

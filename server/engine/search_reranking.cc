@@ -14,8 +14,14 @@
 namespace argmesh {
 namespace {
 
+// Verified shapes that vouch for others, and what their word weighs beside the
+// score.
+constexpr size_t kVouching = 3;
+constexpr double kVouchWeight = 0.2;
+
 double PairScore(const GalleryEntry& a, const GalleryEntry& b) {
-  const MatchOptions options = {.correspondence = false};
+  MatchOptions options;
+  options.correspondence = false;
   return FusedScore(MatchGlobal(a.graph, b.graph, options).score,
                     SignatureSimilarity(a.signature, b.signature));
 }
@@ -36,6 +42,17 @@ Eigen::MatrixXd PairScores(ComputePool& pool, const StopToken& stop,
   return scores;
 }
 
+// `order[i]` becomes the i-th.
+template <typename Shape>
+void PutInOrder(const std::vector<int>& order, std::vector<Shape>& shapes) {
+  std::vector<Shape> ordered;
+  ordered.reserve(order.size());
+  for (const int i : order) {
+    ordered.push_back(std::move(shapes[static_cast<size_t>(i)]));
+  }
+  std::move(ordered.begin(), ordered.end(), shapes.begin());
+}
+
 }  // namespace
 
 absl::Status RerankShapes(ComputePool& pool, const StopToken& stop,
@@ -50,12 +67,37 @@ absl::Status RerankShapes(ComputePool& pool, const StopToken& stop,
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return reranked[a] > reranked[b]; });
-  std::vector<RankedShape> head;
-  head.reserve(order.size());
-  for (const int i : order) {
-    head.push_back(std::move(shapes[static_cast<size_t>(i)]));
+  PutInOrder(order, shapes);
+  return absl::OkStatus();
+}
+
+absl::Status RerankContaining(ComputePool& pool, const StopToken& stop,
+                              std::vector<ContainingShape>& shapes) {
+  std::vector<size_t> vouching;
+  for (size_t i = 0; i < shapes.size() && vouching.size() < kVouching; ++i) {
+    if (shapes[i].match.verified) vouching.push_back(i);
   }
-  std::move(head.begin(), head.end(), shapes.begin());
+  if (vouching.empty()) return absl::OkStatus();
+  std::vector<double> keys(shapes.size());
+  pool.ParallelFor(
+      WorkClass::kSearch, static_cast<int64_t>(shapes.size()), [&](int64_t i) {
+        const auto at = static_cast<size_t>(i);
+        double word = 0;
+        for (const size_t v : vouching) {
+          if (!stop.Check().ok()) return;
+          const double alike =
+              v == at ? 1 : PairScore(*shapes[v].entry, *shapes[at].entry);
+          word = std::max(word, alike);
+        }
+        keys[at] = shapes[at].score + kVouchWeight * word;
+      });
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  std::vector<int> order(shapes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return keys[static_cast<size_t>(a)] > keys[static_cast<size_t>(b)];
+  });
+  PutInOrder(order, shapes);
   return absl::OkStatus();
 }
 

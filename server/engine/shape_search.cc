@@ -7,7 +7,11 @@
 
 #include "core/base/status_macros.h"
 #include "core/base/stopwatch.h"
+#include "core/containment/overlaid_faces.h"
+#include "core/containment/target_windows.h"
 #include "core/matching/fused_score.h"
+#include "core/matching/match_placed.h"
+#include "core/mesh/mesh_repair.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/search_reranking.h"
@@ -16,6 +20,8 @@ namespace argmesh {
 namespace {
 
 constexpr double kMinAlike = 0.8;
+// Verified matches whose components are found by place; each reads a mesh.
+constexpr size_t kMaxPlaced = 20;
 
 // Notes how long each stage took.
 class StageClock {
@@ -39,8 +45,10 @@ std::string ExcludedId(const SearchQuery& query) {
 
 QueryNeeds NeedsOf(MatchMode mode, RankingMethod ranking) {
   const bool fused = ranking == RankingMethod::kFused;
-  return {.signature = fused && mode == MatchMode::kGlobal,
-          .windows = fused && mode == MatchMode::kPartial};
+  const bool partial = mode == MatchMode::kPartial;
+  return {.signature = fused && !partial,
+          .windows = fused && partial,
+          .surface = fused && partial};
 }
 
 std::vector<ScoreTerm> FusedTerms(double graph, double signature) {
@@ -61,6 +69,11 @@ MatchOptions OptionsOf(const Query& query) {
   return {.attributes = query.attributes, .levels = query.levels};
 }
 
+// More than are answered where their order is looked at again.
+int RankedShapesOf(const SearchQuery& query) {
+  return query.rerank ? std::max(query.limit, kRerankedShapes) : query.limit;
+}
+
 RankQuery RankQueryOf(const SearchQuery& query, const SlotSelection& slots,
                       const MatchableGraph& graph,
                       const PackedSignature* signature) {
@@ -70,10 +83,40 @@ RankQuery RankQueryOf(const SearchQuery& query, const SlotSelection& slots,
           .signature = signature,
           .candidates = query.candidates,
           .exact = query.exact,
-          .limit = query.limit,
+          .limit = RankedShapesOf(query),
           .min_score = query.min_score,
           .min_query_coverage = query.min_query_coverage,
           .slots = slots};
+}
+
+SearchMatch MatchOf(ContainingShape shape) {
+  SearchMatch match;
+  match.score = shape.score;
+  match.terms = ContainmentTerms(shape.match, shape.graph.score);
+  match.match = std::move(shape.graph);
+  match.match.query_coverage = shape.match.query_coverage;
+  match.match.target_coverage = shape.match.target_coverage;
+  match.tied = shape.tied;
+  match.containment = std::move(shape.match);
+  return match;
+}
+
+// Gives a match the components that lie on each other.
+void PlaceComponents(const ShapeGraph& query_graph,
+                     const LabelledSurface& query,
+                     const ShapeGraph& target_graph,
+                     const LabelledSurface& target, const MatchOptions& options,
+                     SearchMatch& match) {
+  MatchPlaced(
+      {query_graph, query.labels}, {target_graph, target.labels},
+      OverlayFaces(query.mesh, target.mesh, match.containment->transform),
+      options, match.match);
+}
+
+bool HasWindows(const QueryWindows& query) {
+  return std::any_of(
+      query.levels.begin(), query.levels.end(),
+      [](const QueryLevel& level) { return !level.windows.empty(); });
 }
 
 }  // namespace
@@ -152,6 +195,8 @@ absl::Status ShapeSearch::SearchGraphs(const SearchQuery& query,
   clock.Lap("match");
   if (query.rerank && packed != nullptr) {
     ARGMESH_RETURN_IF_ERROR(RerankShapes(pool_, stop, ranking.shapes));
+    ranking.shapes.resize(
+        std::min(ranking.shapes.size(), static_cast<size_t>(query.limit)));
     clock.Lap("rerank");
   }
   answer.matches.resize(ranking.shapes.size());
@@ -191,7 +236,7 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
                          .graph = graph,
                          .match = OptionsOf(query),
                          .sha256 = resolved.sha256,
-                         .limit = query.limit,
+                         .limit = RankedShapesOf(query),
                          .candidates = query.candidates,
                          .exact = query.exact,
                          .min_score = query.min_score,
@@ -203,23 +248,54 @@ absl::Status ShapeSearch::SearchWindows(const SearchQuery& query,
   stages.push_back({"match", found.match_time});
   stages.push_back({"verification", found.verification_time});
   stages.push_back({"correspondence", found.graph_time});
+  if (query.rerank) {
+    StageClock clock(stages);
+    ARGMESH_RETURN_IF_ERROR(RerankContaining(pool_, stop, found.shapes));
+    clock.Lap("rerank");
+  }
+  found.shapes.resize(
+      std::min(found.shapes.size(), static_cast<size_t>(query.limit)));
   for (ContainingShape& shape : found.shapes) {
-    SearchMatch& match = answer.matches.emplace_back();
-    match.shape = shape.entry->record;
-    match.score = shape.score;
-    match.terms = ContainmentTerms(shape.match, shape.graph.score);
-    match.match = std::move(shape.graph);
-    match.match.query_coverage = shape.match.query_coverage;
-    match.match.target_coverage = shape.match.target_coverage;
-    match.tied = shape.tied;
-    match.containment = std::move(shape.match);
-    if (found.generic) match.containment->verified = false;
+    const ShapeRecord& record = shape.entry->record;
+    answer.matches.push_back(MatchOf(std::move(shape)));
+    answer.matches.back().shape = record;
+  }
+  if (query.correspondence) {
+    StageClock clock(stages);
+    ARGMESH_RETURN_IF_ERROR(PlaceMatches(query, searched.gallery->settings,
+                                         resolved, stop, answer.matches));
+    clock.Lap("placement");
   }
   answer.query_generic = found.generic;
   answer.stats.shapes_considered = found.considered;
   answer.stats.shapes_matched = found.matched;
   answer.stats.shapes_unusable += found.damaged;
-  answer.stats.exhaustive = found.matched == found.considered;
+  answer.stats.exhaustive = found.laid == found.considered;
+  return stop.Check();
+}
+
+absl::Status ShapeSearch::PlaceMatches(
+    const SearchQuery& query, const CollectionSettings& settings,
+    const ResolvedQuery& resolved, const StopToken& stop,
+    std::vector<SearchMatch>& matches) const {
+  std::vector<SearchMatch*> verified;
+  for (SearchMatch& match : matches) {
+    if (match.containment->verified && verified.size() < kMaxPlaced) {
+      verified.push_back(&match);
+    }
+  }
+  pool_.ParallelFor(
+      WorkClass::kSearch, static_cast<int64_t>(verified.size()),
+      [&](int64_t i) {
+        if (!stop.Check().ok()) return;
+        SearchMatch& match = *verified[static_cast<size_t>(i)];
+        // One that went, or became another mesh, keeps what its graph says.
+        const absl::StatusOr<StoredSurface> target =
+            resolver_.ReadSurface({query.collection, match.shape.id}, settings);
+        if (!target.ok() || target->sha256 != match.shape.sha256) return;
+        PlaceComponents(resolved.graph.graph, *resolved.surface, target->graph,
+                        target->surface, OptionsOf(query), match);
+      });
   return stop.Check();
 }
 
@@ -239,9 +315,12 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
   answer.stats.generation = gallery.generation;
   answer.stats.shapes_unusable =
       gallery.damaged_shapes + gallery.outdated_shapes;
+  // All of a narrow strip is border: nothing of it is a window.
+  answer.query_generic = resolved.windows && !HasWindows(*resolved.windows);
   ARGMESH_RETURN_IF_ERROR(
-      resolved.windows ? SearchWindows(query, resolved, searched, stop, answer)
-                       : SearchGraphs(query, resolved, searched, stop, answer));
+      resolved.windows && !answer.query_generic
+          ? SearchWindows(query, resolved, searched, stop, answer)
+          : SearchGraphs(query, resolved, searched, stop, answer));
   answer.stats.exhaustive &= answer.stats.shapes_unusable == 0;
   if (!query.correspondence) {
     for (SearchMatch& match : answer.matches) match.match.pairs.clear();
@@ -253,9 +332,9 @@ absl::StatusOr<SearchAnswer> ShapeSearch::Search(const SearchQuery& query,
 absl::StatusOr<std::pair<ResolvedQuery, ResolvedQuery>>
 ShapeSearch::ResolveBoth(const CompareQuery& query,
                          const StopToken& stop) const {
-  // A part is compared by the graphs: where it lies is a search's matter.
-  const QueryNeeds needs = {.signature =
-                                NeedsOf(query.mode, query.ranking).signature};
+  const QueryNeeds needs = NeedsOf(query.mode, query.ranking);
+  QueryNeeds target_needs = needs;
+  target_needs.windows = false;
   ARGMESH_ASSIGN_OR_RETURN(CollectionRecord collection,
                            catalog_.GetCollection(query.collection));
   while (true) {
@@ -264,7 +343,7 @@ ShapeSearch::ResolveBoth(const CompareQuery& query,
     absl::Status status = a.status();
     if (status.ok()) {
       absl::StatusOr<ResolvedQuery> b =
-          resolver_.Resolve(query.b, collection.settings, needs, stop);
+          resolver_.Resolve(query.b, collection.settings, target_needs, stop);
       if (b.ok()) return std::make_pair(*std::move(a), *std::move(b));
       status = b.status();
     }
@@ -277,15 +356,10 @@ ShapeSearch::ResolveBoth(const CompareQuery& query,
   }
 }
 
-absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
-    const CompareQuery& query, const StopToken& stop) const {
-  ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
-  ARGMESH_ASSIGN_OR_RETURN(auto resolved, ResolveBoth(query, stop));
-  auto& [a, b] = resolved;
-  ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, a.graph.graph));
-  ARGMESH_RETURN_IF_ERROR(stop.Check());
-  ComparedShapes compared;
-  SearchMatch& match = compared.match;
+SearchMatch ShapeSearch::CompareGraphs(const CompareQuery& query,
+                                       const ResolvedQuery& a,
+                                       const ResolvedQuery& b) {
+  SearchMatch match;
   match.match = MatchGraphs(query.mode, MatchableGraph(a.graph.graph),
                             MatchableGraph(b.graph.graph), OptionsOf(query));
   match.score = match.match.score;
@@ -296,6 +370,46 @@ absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
     match.terms = FusedTerms(match.match.score, similarity);
     match.score = FusedScore(match.match.score, similarity);
     match.handedness = HandednessOf(packed_a, packed_b, similarity);
+  }
+  return match;
+}
+
+absl::StatusOr<SearchMatch> ShapeSearch::CompareWindows(
+    const CompareQuery& query, const ResolvedQuery& a, const ResolvedQuery& b,
+    const StopToken& stop) const {
+  ARGMESH_ASSIGN_OR_RETURN(const RepairedMesh repaired,
+                           RepairMesh(b.surface->mesh));
+  ARGMESH_ASSIGN_OR_RETURN(const TargetWindows target,
+                           ExtractTargetWindows(repaired.mesh, {}, stop));
+  ARGMESH_ASSIGN_OR_RETURN(
+      ContainingShape shape,
+      containment_.Match({.query = *a.windows,
+                          .query_graph = MatchableGraph(a.graph.graph),
+                          .target = target,
+                          .target_graph = MatchableGraph(b.graph.graph),
+                          .match = OptionsOf(query),
+                          .same_bytes = a.sha256 && a.sha256 == b.sha256},
+                         stop));
+  SearchMatch match = MatchOf(std::move(shape));
+  if (match.containment->verified) {
+    PlaceComponents(a.graph.graph, *a.surface, b.graph.graph, *b.surface,
+                    OptionsOf(query), match);
+  }
+  return match;
+}
+
+absl::StatusOr<ComparedShapes> ShapeSearch::Compare(
+    const CompareQuery& query, const StopToken& stop) const {
+  ARGMESH_RETURN_IF_ERROR(CheckId("collection", query.collection));
+  ARGMESH_ASSIGN_OR_RETURN(auto resolved, ResolveBoth(query, stop));
+  auto& [a, b] = resolved;
+  ARGMESH_RETURN_IF_ERROR(CheckLevels(query.levels, a.graph.graph));
+  ARGMESH_RETURN_IF_ERROR(stop.Check());
+  ComparedShapes compared;
+  if (a.windows && b.surface && HasWindows(*a.windows)) {
+    ARGMESH_ASSIGN_OR_RETURN(compared.match, CompareWindows(query, a, b, stop));
+  } else {
+    compared.match = CompareGraphs(query, a, b);
   }
   if (query.graphs) {
     compared.a = std::move(a.graph);

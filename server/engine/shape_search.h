@@ -58,6 +58,19 @@ class ShapeSearch {
                              const ResolvedQuery& resolved,
                              const SearchedShapes& searched,
                              const StopToken& stop, SearchAnswer& answer) const;
+  static SearchMatch CompareGraphs(const CompareQuery& query,
+                                   const ResolvedQuery& a,
+                                   const ResolvedQuery& b);
+  absl::StatusOr<SearchMatch> CompareWindows(const CompareQuery& query,
+                                             const ResolvedQuery& a,
+                                             const ResolvedQuery& b,
+                                             const StopToken& stop) const;
+  // Gives verified matches the components that lie on each other.
+  absl::Status PlaceMatches(const SearchQuery& query,
+                            const CollectionSettings& settings,
+                            const ResolvedQuery& resolved,
+                            const StopToken& stop,
+                            std::vector<SearchMatch>& matches) const;
 
   ComputePool& pool_;
   const Catalog& catalog_;

@@ -105,6 +105,13 @@ v1::Handedness ToProto(Handedness handedness) {
   return v1::HANDEDNESS_UNSPECIFIED;
 }
 
+void AppendRows(const Eigen::Matrix4d& matrix,
+                google::protobuf::RepeatedField<double>& out) {
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) out.Add(matrix(row, column));
+  }
+}
+
 v1::Containment ToProto(const ContainmentMatch& match, bool tied) {
   v1::Containment out;
   out.set_verified(match.verified);
@@ -112,12 +119,12 @@ v1::Containment ToProto(const ContainmentMatch& match, bool tied) {
   out.set_window_score(match.votes);
   out.set_surface_score(match.fine_cover);
   if (match.coarse_cover > 0) {
-    for (int row = 0; row < 4; ++row) {
-      for (int column = 0; column < 4; ++column) {
-        out.add_transform(match.transform(row, column));
-      }
-    }
+    AppendRows(match.transform, *out.mutable_transform());
   }
+  for (const Eigen::Matrix4d& place : match.other_places) {
+    AppendRows(place, *out.add_other_places()->mutable_transform());
+  }
+  out.set_inside_out(match.flipped);
   return out;
 }
 
@@ -148,10 +155,9 @@ absl::StatusOr<MatchSettings> FromProto(std::string_view field,
   ARGMESH_ASSIGN_OR_RETURN(settings.ranking,
                            RankingOf(field, parameters, graph_query));
   settings.rerank = parameters.rerank();
-  if (settings.rerank && (mode != MatchMode::kGlobal ||
-                          settings.ranking != RankingMethod::kFused)) {
+  if (settings.rerank && settings.ranking != RankingMethod::kFused) {
     return FieldInvalid(std::string(field) + ".rerank",
-                        "only a global search with the fused ranking has it");
+                        "only a search with the fused ranking has it");
   }
   return settings;
 }

@@ -28,7 +28,7 @@ struct MatchSettings {
 //
 // FIELD_INVALID for a number that is no set or method, for another set than
 // FULL in a partial search, for what needs more than the graph of a graph
-// query, and for `rerank` of anything but a fused global search.
+// query, and for `rerank` of anything but a fused search.
 absl::StatusOr<MatchSettings> FromProto(std::string_view field,
                                         const v1::MatchParameters& parameters,
                                         MatchMode mode, bool graph_query);

@@ -204,6 +204,127 @@ TEST_F(ShapeSearchTest, ComparesAnyTwoShapes) {
   EXPECT_LT(other.match.score, 1);
 }
 
+// The ball of a dumbbell above z = 0.
+TriangleMesh UpperHalf(const TriangleMesh& mesh) {
+  TriangleMesh half = mesh;
+  int faces = 0;
+  for (int f = 0; f < mesh.num_faces(); ++f) {
+    if (mesh.V(mesh.F(f, 0), 2) > 0) half.F.row(faces++) = mesh.F.row(f);
+  }
+  half.F.conservativeResize(faces, Eigen::NoChange);
+  RemoveUnusedVertices(half);
+  return half;
+}
+
+std::string Off(const TriangleMesh& mesh) {
+  return SerializeMesh(mesh, MeshFormat::kOff).value();
+}
+
+TEST_F(ShapeSearchTest, PairsTheComponentsThatLieOnEachOther) {
+  const TriangleMesh whole = MakeDumbbell(24);
+  ASSERT_THAT(engine_->AddShape(Named("bell"), Off(whole)), IsOk());
+  ASSERT_THAT(engine_->AddShape(Named("thin"), TorusOff(2)), IsOk());
+  SearchQuery query =
+      SearchFor(MeshBytes{Off(RandomlyMoved(UpperHalf(whole), 5))});
+  query.mode = MatchMode::kPartial;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer answer, engine_->Search(query));
+  const SearchMatch& first = answer.matches.at(0);
+  ASSERT_EQ(first.shape.id, "bell");
+  ASSERT_TRUE(first.containment->verified);
+  ASSERT_FALSE(first.match.pairs.empty());
+  // Both balls hold the query: which of them is a matter of chance.
+  EXPECT_EQ(first.containment->other_places.size(), 1U);
+  EXPECT_TRUE(first.tied);
+  double best = 0;
+  for (const NodePair& pair : first.match.pairs) {
+    best = std::max(best, static_cast<double>(pair.similarity));
+  }
+  EXPECT_GT(best, 0.5);
+  EXPECT_EQ(answer.stats.stages.back().stage, "placement");
+}
+
+TEST_F(ShapeSearchTest, RanksWhatHasNoWindowsByItsGraph) {
+  TriangleMesh strip = MakeSheet(40);
+  strip.V.col(1) *= 0.004;
+  ASSERT_THAT(engine_->AddShape(Named("strip"), Off(strip)), IsOk());
+  ASSERT_THAT(engine_->AddShape(Named("thin"), TorusOff(2)), IsOk());
+  SearchQuery query = SearchFor(MeshBytes{Off(strip)});
+  query.mode = MatchMode::kPartial;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer answer, engine_->Search(query));
+  EXPECT_TRUE(answer.query_generic);
+  EXPECT_EQ(answer.matches.at(0).shape.id, "strip");
+  EXPECT_EQ(answer.matches.at(0).score, 1);
+  EXPECT_FALSE(answer.matches.at(0).containment.has_value());
+}
+
+TEST_F(ShapeSearchTest, RanksMoreShapesAgainThanItAnswers) {
+  for (int i = 1; i < 9; ++i) {
+    ASSERT_THAT(
+        engine_->AddShape(Named("torus" + std::to_string(i)), TorusOff(i)),
+        IsOk());
+  }
+  SearchQuery query = SearchFor(MeshBytes{DumbbellOff()});
+  query.rerank = true;
+  const std::vector<std::string> all = IdsOf(engine_->Search(query).value());
+  ASSERT_EQ(all.size(), 8U);
+  for (const int limit : {1, 2, 5}) {
+    query.limit = limit;
+    EXPECT_EQ(IdsOf(engine_->Search(query).value()),
+              std::vector<std::string>(all.begin(), all.begin() + limit));
+  }
+}
+
+TEST_F(ShapeSearchTest, RanksWhatIsLikeAHolderOfThePieceBeforeOthers) {
+  const TriangleMesh whole = MakeDumbbell(24);
+  TriangleMesh stretched = whole;
+  stretched.V.col(2) *= 1.3;  // its balls are none
+  ASSERT_THAT(engine_->AddShape(Named("bell"), Off(whole)), IsOk());
+  ASSERT_THAT(engine_->AddShape(Named("long"), Off(stretched)), IsOk());
+  for (int i = 2; i < 9; ++i) {
+    ASSERT_THAT(
+        engine_->AddShape(Named("torus" + std::to_string(i)), TorusOff(i)),
+        IsOk());
+  }
+  SearchQuery query =
+      SearchFor(MeshBytes{Off(RandomlyMoved(UpperHalf(whole), 5))});
+  query.mode = MatchMode::kPartial;
+  ASSERT_OK_AND_ASSIGN(const SearchAnswer plain, engine_->Search(query));
+  ASSERT_TRUE(plain.matches.at(0).containment->verified);
+  query.rerank = true;
+  query.limit = 2;
+  EXPECT_THAT(IdsOf(engine_->Search(query).value()),
+              ElementsAre("bell", "long"));
+  // Without a holder nobody vouches.
+  ASSERT_THAT(engine_->DeleteShape({{"cups", "bell"}, "", {}}), IsOk());
+  query.limit = 10;
+  const std::vector<std::string> order = IdsOf(engine_->Search(query).value());
+  query.rerank = false;
+  EXPECT_EQ(IdsOf(engine_->Search(query).value()), order);
+}
+
+TEST_F(ShapeSearchTest, ComparesAPieceWithItsWholeByWhereItLies) {
+  const TriangleMesh whole = MakeDumbbell(24);
+  CompareQuery query;
+  query.collection = "cups";
+  query.mode = MatchMode::kPartial;
+  query.a = MeshBytes{Off(RandomlyMoved(UpperHalf(whole), 5))};
+  query.b = MeshBytes{Off(whole)};
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes in, engine_->Compare(query));
+  ASSERT_TRUE(in.match.containment.has_value());
+  EXPECT_TRUE(in.match.containment->verified);
+  EXPECT_FALSE(in.match.match.pairs.empty());
+  query.b = MeshBytes{TorusOff(2)};
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes out, engine_->Compare(query));
+  EXPECT_FALSE(out.match.containment->verified);
+  EXPECT_LT(out.match.score, in.match.score);
+  query.b = query.a;
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes same, engine_->Compare(query));
+  EXPECT_EQ(same.match.score, 1);
+  query.ranking = RankingMethod::kGraph;
+  ASSERT_OK_AND_ASSIGN(const ComparedShapes graphs, engine_->Compare(query));
+  EXPECT_FALSE(graphs.match.containment.has_value());
+}
+
 TEST_F(ShapeSearchTest, StopsWhenItIsCancelled) {
   ASSERT_OK_AND_ASSIGN(const CollectionRecord cups,
                        engine_->GetCollection("cups"));
