@@ -46,11 +46,7 @@ Any Packed(const google::protobuf::Message& message) {
   return any;
 }
 
-OperationRegistry::~OperationRegistry() {
-  CancelAll();
-  std::unique_lock lock(mutex_);
-  ended_.wait(lock, [this] { return running_.empty(); });
-}
+OperationRegistry::~OperationRegistry() { EndAll(); }
 
 absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
                                                    std::string_view resource,
@@ -196,6 +192,12 @@ int OperationRegistry::running() const {
 void OperationRegistry::CancelAll() {
   const std::lock_guard lock(mutex_);
   for (const auto& entry : running_) entry->stop.request_stop();
+}
+
+void OperationRegistry::EndAll() {
+  CancelAll();
+  std::unique_lock lock(mutex_);
+  ended_.wait(lock, [this] { return running_.empty(); });
 }
 
 }  // namespace argmesh

@@ -39,7 +39,7 @@ class OperationRegistry {
 
   // How operations end goes to `log`, which must outlive the registry.
   explicit OperationRegistry(EventLog& log) : log_(log) {}
-  ~OperationRegistry();  // CancelAll, and waits for the end
+  ~OperationRegistry();  // EndAll
 
   // `method` is the rpc, `resource` what it is about. OVERLOADED.
   absl::StatusOr<google::longrunning::Operation> Start(
@@ -56,6 +56,8 @@ class OperationRegistry {
                                                    int limit) const;
 
   void CancelAll();
+  // CancelAll, and waits until none runs.
+  void EndAll();
   int running() const;
 
  private:

@@ -196,6 +196,9 @@ class RpcServer::Impl {
     server_->Wait();
     // gRPC's own part is done; tasks on the pool may still let go of calls.
     environment_.calls.WaitUntilIdle(absl::InfiniteFuture());
+    // Those too that a last call has started: they read the store, which is
+    // closed next.
+    environment_.operations.EndAll();
     server_.reset();
     return clean_;
   }

@@ -77,8 +77,9 @@ class RpcServer {
   void StopAdvertising();
 
   // New calls are refused with DRAINING, those in flight may finish until
-  // `deadline` and are then cancelled. Returns when gRPC is done; true when no
-  // call was cut off. The first call decides.
+  // `deadline` and are then cancelled; operations are cancelled at once.
+  // Returns when gRPC and all operations are done; true when no call was cut
+  // off. The first call decides.
   bool Shutdown(absl::Time deadline);
 
  private:

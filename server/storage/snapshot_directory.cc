@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/escaping.h"
@@ -20,6 +22,7 @@
 #include "server/storage/schema.h"
 #include "server/storage/sealed_archive.h"
 #include "server/storage/snapshot_format.h"
+#include "server/storage/stopped_queries.h"
 #include "server/storage/storage_check.h"
 
 namespace argmesh {
@@ -32,6 +35,7 @@ constexpr char kSuffix[] = ".tar";
 constexpr char kDigestSuffix[] = ".sha256";
 constexpr int64_t kPieceBytes = 1 << 20;
 constexpr size_t kDigestDigits = 64;
+constexpr std::chrono::milliseconds kBetweenTries(10);
 
 // Removes a file when it goes out of scope; one that is not there is fine.
 class Discard {
@@ -140,7 +144,8 @@ fs::path SnapshotDirectory::PathOf(std::string_view id) const {
 }
 
 absl::StatusOr<std::unique_ptr<SqliteConnection>>
-SnapshotDirectory::CopyCatalog(const fs::path& copy) const {
+SnapshotDirectory::CopyCatalog(const fs::path& copy,
+                               const StopToken& stop) const {
   {
     ARGMESH_ASSIGN_OR_RETURN(
         const std::unique_ptr<SqliteConnection> live,
@@ -149,19 +154,26 @@ SnapshotDirectory::CopyCatalog(const fs::path& copy) const {
     // The file is opened for reading only; the pragma would keep the copy
     // from being written too.
     ARGMESH_RETURN_IF_ERROR(live->Execute("PRAGMA query_only=OFF"));
+    const StoppedQueries queries(*live, stop);
     const std::string name = copy.string();
-    ARGMESH_RETURN_IF_ERROR(live->Run("VACUUM INTO ?", name).status());
+    ARGMESH_RETURN_IF_ERROR(
+        OrStopped(live->Run("VACUUM INTO ?", name).status(), stop));
   }
   ARGMESH_ASSIGN_OR_RETURN(
       std::unique_ptr<SqliteConnection> catalog,
       SqliteConnection::Open(copy, SqliteConnection::Mode::kReadOnly));
-  ARGMESH_RETURN_IF_ERROR(CheckDatabase(*catalog));
+  const StoppedQueries queries(*catalog, stop);
+  ARGMESH_RETURN_IF_ERROR(OrStopped(CheckDatabase(*catalog), stop));
   return catalog;
 }
 
 absl::StatusOr<SnapshotRecord> SnapshotDirectory::CreateSnapshot(
     std::string_view id, const StopToken& stop) {
-  const std::lock_guard lock(create_mutex_);
+  std::unique_lock lock(create_mutex_, std::defer_lock);
+  while (!lock.try_lock()) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    std::this_thread::sleep_for(kBetweenTries);
+  }
   const fs::path path = PathOf(id);
   std::error_code error;
   if (fs::exists(path, error)) {
@@ -177,7 +189,7 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::CreateSnapshot(
                            BytesOf(directory_->database_path()));
   ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(catalog_bytes));
   ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<SqliteConnection> catalog,
-                           CopyCatalog(copy));
+                           CopyCatalog(copy, stop));
   return Write(id, copy, *catalog, stop);
 }
 

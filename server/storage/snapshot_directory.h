@@ -42,7 +42,7 @@ class SnapshotDirectory : public StoreAdmin {
   std::filesystem::path PathOf(std::string_view id) const;
   // Copies the catalog to `copy` and checks the copy.
   absl::StatusOr<std::unique_ptr<SqliteConnection>> CopyCatalog(
-      const std::filesystem::path& copy) const;
+      const std::filesystem::path& copy, const StopToken& stop) const;
   absl::StatusOr<SnapshotRecord> Write(std::string_view id,
                                        const std::filesystem::path& copy,
                                        SqliteConnection& catalog,

@@ -6,33 +6,12 @@
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/stopped_queries.h"
 
 namespace argmesh {
 namespace {
 
 constexpr int64_t kPieceBytes = 1 << 20;
-constexpr int kStepsBetweenLooks = 100'000;  // of SQLite; about 1 ms
-
-// While it lives, a statement that runs for long is interrupted when `stop`
-// says so.
-class StoppedQueries {
- public:
-  StoppedQueries(SqliteConnection& connection, const StopToken& stop)
-      : db_(connection.handle()), stop_(stop) {
-    sqlite3_progress_handler(db_, kStepsBetweenLooks, &Look, this);
-  }
-  ~StoppedQueries() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
-  StoppedQueries(const StoppedQueries&) = delete;
-  StoppedQueries& operator=(const StoppedQueries&) = delete;
-
- private:
-  static int Look(void* self) {
-    return static_cast<StoppedQueries*>(self)->stop_.Check().ok() ? 0 : 1;
-  }
-
-  sqlite3* const db_;
-  const StopToken stop_;
-};
 
 // Holds for the shapes `s` of the collections `c` that are looked at: those of
 // the first parameter, all when it is empty.
@@ -222,12 +201,9 @@ absl::StatusOr<StorageReport> CheckStorage(SqliteConnection& connection,
                                            const StopToken& stop) {
   const StoppedQueries queries(connection, stop);
   StorageReport report;
-  const absl::Status checked =
-      Check(connection, meshes, collection, stop, report);
-  if (checked.ok()) return report;
-  // An interrupted statement only says that it was.
-  ARGMESH_RETURN_IF_ERROR(stop.Check());
-  return checked;
+  ARGMESH_RETURN_IF_ERROR(
+      OrStopped(Check(connection, meshes, collection, stop, report), stop));
+  return report;
 }
 
 }  // namespace argmesh

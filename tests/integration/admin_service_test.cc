@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <thread>
 
+#include "absl/time/clock.h"
+#include "server/telemetry/gauge_sheet.h"
 #include "tests/integration/operation_wait.h"
 #include "tests/integration/server_fixture.h"
+#include "tests/support/large_database.h"
 
 namespace argmesh {
 namespace {
@@ -200,6 +205,26 @@ TEST_F(AdminServiceTest, KnowsNoOperationThatWasNotStarted) {
             .reason,
         reason);
   }
+}
+
+TEST_F(AdminServiceTest, EndsOperationsBeforeTheServerIsDown) {
+  server_.Stop(absl::Seconds(10));
+  const absl::Status large = MakeLarge(server_.folder() / "catalog.db");
+  ASSERT_TRUE(large.ok()) << large;
+  server_.Start();
+  Operation operation;
+  ASSERT_CALL_OK(StartSnapshot("one", &operation));
+  const std::filesystem::path copy =
+      server_.folder() / "snapshots" / "one.tar.catalog.part";
+  while (!std::filesystem::exists(copy)) std::this_thread::yield();
+  EXPECT_TRUE(server_.rpc().Shutdown(absl::Now() + absl::Seconds(20)));
+  GaugeSheet sheet;
+  server_.rpc().WriteGauges(sheet);
+  EXPECT_EQ(sheet.families().at("argmesh_operations_running").samples[0].value,
+            0);
+  EXPECT_THAT(server_.log(), HasSubstr("CANCELLED"));
+  EXPECT_TRUE(server_.engine().Close().ok());
+  EXPECT_TRUE(std::filesystem::exists(server_.folder() / "clean"));
 }
 
 }  // namespace

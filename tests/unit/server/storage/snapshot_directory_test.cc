@@ -8,8 +8,11 @@
 #include <iterator>
 #include <stop_token>
 #include <string>
+#include <thread>
 
+#include "absl/time/time.h"
 #include "server/engine/error_reason.h"
+#include "tests/support/large_database.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/unit/server/storage/stored_samples.h"
 
@@ -39,6 +42,13 @@ class SnapshotDirectoryTest : public ::testing::Test {
     const std::filesystem::directory_iterator files(samples_.path() /
                                                     "snapshots");
     return static_cast<size_t>(std::distance(begin(files), end(files)));
+  }
+
+  void MakeCatalogLarge() {
+    samples_.Close();
+    const absl::Status large = MakeLarge(samples_.path() / "catalog.db");
+    ASSERT_TRUE(large.ok()) << large;
+    samples_.Open();
   }
 
   const TemporaryDirectory folder_;
@@ -100,6 +110,41 @@ TEST_F(SnapshotDirectoryTest, LeavesNothingBehindWhenItIsStopped) {
   EXPECT_EQ(samples_.snapshots().CreateSnapshot("one", stop).status().code(),
             absl::StatusCode::kCancelled);
   EXPECT_EQ(FilesOfSnapshots(), 0U);
+}
+
+TEST_F(SnapshotDirectoryTest, StopsWithinTheCopyOfTheCatalog) {
+  ASSERT_NO_FATAL_FAILURE(MakeCatalogLarge());
+  const double begin = ThreadSeconds();
+  ASSERT_TRUE(samples_.snapshots().CreateSnapshot("whole", {}).ok());
+  const double whole = ThreadSeconds() - begin;
+  ASSERT_TRUE(samples_.snapshots().DeleteSnapshot("whole").ok());
+  const StopToken over({}, absl::UnixEpoch());
+  EXPECT_EQ(samples_.snapshots().CreateSnapshot("one", over).status().code(),
+            absl::StatusCode::kDeadlineExceeded);
+  EXPECT_LT(ThreadSeconds() - begin - whole, whole / 4);
+  EXPECT_EQ(FilesOfSnapshots(), 0U);
+}
+
+TEST_F(SnapshotDirectoryTest, WaitsForAnotherUntilItIsStopped) {
+  ASSERT_NO_FATAL_FAILURE(MakeCatalogLarge());
+  std::stop_source source;
+  absl::Status other;
+  std::thread making([&] {
+    other = samples_.snapshots()
+                .CreateSnapshot("other", StopToken(source.get_token(),
+                                                   absl::InfiniteFuture()))
+                .status();
+  });
+  while (FilesOfSnapshots() == 0) std::this_thread::yield();
+  EXPECT_EQ(samples_.snapshots()
+                .CreateSnapshot("one", StopToken({}, absl::UnixEpoch()))
+                .status()
+                .code(),
+            absl::StatusCode::kDeadlineExceeded);
+  source.request_stop();
+  making.join();
+  EXPECT_EQ(other.code(), absl::StatusCode::kCancelled)
+      << "waited for the other to end";
 }
 
 TEST_F(SnapshotDirectoryTest, RemovesAtTheStartWhatACrashLeft) {
