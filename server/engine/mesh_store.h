@@ -41,6 +41,7 @@ class StagedMesh {
 class MeshWriter {
  public:
   virtual ~MeshWriter() = default;
+  // As StartWrite when it is more than was expected.
   virtual absl::Status Append(std::string_view bytes) = 0;
   // Once; the writer must not be used afterwards.
   virtual absl::StatusOr<std::unique_ptr<StagedMesh>> Seal() = 0;
@@ -62,8 +63,8 @@ class MeshStore {
 
   virtual ~MeshStore() = default;
 
-  // Fails kResourceExhausted STORE_FULL when `expected_bytes` (0: unknown)
-  // would eat into the space kept free.
+  // Fails kResourceExhausted STORE_FULL when `expected_bytes` (0: unknown),
+  // beside those of the writers there are, would eat into the space kept free.
   virtual absl::StatusOr<std::unique_ptr<MeshWriter>> StartWrite(
       int64_t expected_bytes) = 0;
 

@@ -6,6 +6,7 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -68,6 +69,26 @@ absl::StatusOr<PosixFile> Lock(const std::filesystem::path& directory) {
 
 }  // namespace
 
+SpaceClaim::SpaceClaim(const DataDirectory& directory, int64_t bytes)
+    : directory_(&directory), bytes_(bytes) {
+  directory.claimed_ += bytes;
+}
+
+SpaceClaim::SpaceClaim(SpaceClaim&& other) noexcept
+    : directory_(other.directory_), bytes_(std::exchange(other.bytes_, 0)) {}
+
+SpaceClaim& SpaceClaim::operator=(SpaceClaim&& other) noexcept {
+  std::swap(directory_, other.directory_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+void SpaceClaim::Wrote(int64_t bytes) {
+  const int64_t done = std::min(bytes, bytes_);
+  bytes_ -= done;
+  if (directory_ != nullptr) directory_->claimed_ -= done;
+}
+
 DataDirectory::DataDirectory(std::filesystem::path path,
                              const DataDirectoryOptions& options,
                              PosixFile lock)
@@ -105,14 +126,21 @@ absl::StatusOr<int64_t> DataDirectory::FreeBytes() const {
 
 absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
   ARGMESH_ASSIGN_OR_RETURN(const int64_t free_bytes, FreeBytes());
-  if (free_bytes - extra_bytes >= options_.min_free_bytes) {
-    return absl::OkStatus();
-  }
+  const int64_t needed = claimed_ + extra_bytes;
+  if (free_bytes - needed >= options_.min_free_bytes) return absl::OkStatus();
   return MakeError(
       ErrorReason::kStoreFull,
-      absl::StrFormat("%d bytes are free, %d are kept free, %d were needed",
-                      free_bytes, options_.min_free_bytes, extra_bytes),
+      absl::StrFormat("%d bytes are free, %d are kept free, %d are needed for "
+                      "this write and those under way",
+                      free_bytes, options_.min_free_bytes, needed),
       {{"free_bytes", absl::StrFormat("%d", free_bytes)}});
+}
+
+absl::StatusOr<SpaceClaim> DataDirectory::Claim(int64_t bytes) const {
+  // Claimed first: of two at a time, each sees the other.
+  SpaceClaim claim(*this, bytes);
+  ARGMESH_RETURN_IF_ERROR(CheckFreeSpace(0));
+  return claim;
 }
 
 bool DataDirectory::IsMarkedClean() const {

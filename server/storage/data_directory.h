@@ -10,6 +10,7 @@
 #ifndef ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_
 #define ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -25,6 +26,29 @@ struct DataDirectoryOptions {
   int64_t min_free_bytes = 128LL << 20;
   // SQLite's write-ahead log does not work on network file systems.
   bool allow_network_file_system = false;
+};
+
+class DataDirectory;
+
+// Space for what a write is going to add: while one lives, every check counts
+// it as taken. Must not outlive its directory.
+class SpaceClaim {
+ public:
+  SpaceClaim() = default;  // of nothing
+  ~SpaceClaim() { Wrote(bytes_); }
+  SpaceClaim(SpaceClaim&& other) noexcept;
+  SpaceClaim& operator=(SpaceClaim&& other) noexcept;
+
+  int64_t bytes() const { return bytes_; }
+  // So many of its bytes are on the disk and need no claim any more.
+  void Wrote(int64_t bytes);
+
+ private:
+  friend class DataDirectory;
+  SpaceClaim(const DataDirectory& directory, int64_t bytes);
+
+  const DataDirectory* directory_ = nullptr;
+  int64_t bytes_ = 0;
 };
 
 class DataDirectory {
@@ -45,9 +69,11 @@ class DataDirectory {
   std::filesystem::path snapshots_path() const { return path_ / "snapshots"; }
 
   absl::StatusOr<int64_t> FreeBytes() const;
-  // kResourceExhausted STORE_FULL when `extra_bytes` more would eat into the
-  // space kept free.
+  // kResourceExhausted STORE_FULL when `extra_bytes` more, beside all that is
+  // claimed, would eat into the space kept free.
   absl::Status CheckFreeSpace(int64_t extra_bytes) const;
+  // As CheckFreeSpace, and keeps them from others.
+  absl::StatusOr<SpaceClaim> Claim(int64_t bytes) const;
 
   // Whether the last stop was clean.
   bool IsMarkedClean() const;
@@ -61,6 +87,9 @@ class DataDirectory {
   std::filesystem::path path_;
   DataDirectoryOptions options_;
   PosixFile lock_;  // the lock goes with it
+  mutable std::atomic<int64_t> claimed_{0};
+
+  friend class SpaceClaim;
 };
 
 }  // namespace argmesh

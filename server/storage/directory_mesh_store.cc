@@ -168,18 +168,24 @@ class FileStagedMesh : public StagedMesh {
 class FileMeshWriter : public MeshWriter {
  public:
   FileMeshWriter(std::shared_ptr<DirectoryMeshStore::Shared> shared,
-                 PosixFile file, fs::path path)
+                 PosixFile file, fs::path path, SpaceClaim announced)
       : shared_(std::move(shared)),
         file_(std::move(file)),
-        path_(std::move(path)) {}
+        path_(std::move(path)),
+        announced_(std::move(announced)) {}
   ~FileMeshWriter() override {
     if (!path_.empty()) ::unlink(path_.c_str());
   }
 
   absl::Status Append(std::string_view bytes) override {
+    const auto count = static_cast<int64_t>(bytes.size());
+    if (count > announced_.bytes()) {
+      ARGMESH_ASSIGN_OR_RETURN(announced_, shared_->directory->Claim(count));
+    }
     ARGMESH_RETURN_IF_ERROR(WriteAll(file_, path_, bytes));
+    announced_.Wrote(count);
     hasher_.Update(bytes);
-    size_bytes_ += static_cast<int64_t>(bytes.size());
+    size_bytes_ += count;
     return absl::OkStatus();
   }
 
@@ -193,6 +199,7 @@ class FileMeshWriter : public MeshWriter {
   std::shared_ptr<DirectoryMeshStore::Shared> shared_;
   PosixFile file_;
   fs::path path_;  // empty once it is sealed
+  SpaceClaim announced_;
   Sha256Hasher hasher_;
   int64_t size_bytes_ = 0;
 };
@@ -220,13 +227,14 @@ absl::StatusOr<std::unique_ptr<DirectoryMeshStore>> DirectoryMeshStore::Open(
 
 absl::StatusOr<std::unique_ptr<MeshWriter>> DirectoryMeshStore::StartWrite(
     int64_t expected_bytes) {
-  ARGMESH_RETURN_IF_ERROR(shared_->directory->CheckFreeSpace(expected_bytes));
+  ARGMESH_ASSIGN_OR_RETURN(SpaceClaim announced,
+                           shared_->directory->Claim(expected_bytes));
   fs::path path = shared_->directory->incoming_path() /
                   absl::StrFormat("%d", shared_->next_incoming++);
   ARGMESH_ASSIGN_OR_RETURN(PosixFile file,
                            OpenFile(path, O_RDWR | O_CREAT | O_EXCL));
   return std::unique_ptr<MeshWriter>(std::make_unique<FileMeshWriter>(
-      shared_, std::move(file), std::move(path)));
+      shared_, std::move(file), std::move(path), std::move(announced)));
 }
 
 absl::StatusOr<std::unique_ptr<MeshReader>> DirectoryMeshStore::Open(

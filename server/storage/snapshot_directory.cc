@@ -198,9 +198,10 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::Write(
     const StopToken& stop) const {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<NamedMesh> meshes,
                            ReadNamedMeshes(catalog, /*collection=*/""));
-  ARGMESH_ASSIGN_OR_RETURN(int64_t bytes, BytesOf(copy));
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t catalog_bytes, BytesOf(copy));
+  int64_t bytes = catalog_bytes;
   for (const NamedMesh& mesh : meshes) bytes += mesh.size_bytes;
-  ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(bytes));
+  ARGMESH_ASSIGN_OR_RETURN(SpaceClaim space, directory_->Claim(bytes));
 
   const fs::path path = PathOf(id);
   const fs::path unfinished = path.string() + kUnfinished;
@@ -212,12 +213,15 @@ absl::StatusOr<SnapshotRecord> SnapshotDirectory::Write(
   ARGMESH_RETURN_IF_ERROR(archive->Append(kSnapshotVersion));
   ARGMESH_RETURN_IF_ERROR(
       AppendFile(copy, kSnapshotCatalogMember, stop, *archive));
+  space.Wrote(catalog_bytes);
   for (const NamedMesh& mesh : meshes) {
     ARGMESH_RETURN_IF_ERROR(
         archive->Begin(MeshMemberName(mesh.sha256), mesh.size_bytes));
-    ARGMESH_RETURN_IF_ERROR(ReadWholeMesh(
-        meshes_, mesh, stop,
-        [&](std::string_view piece) { return archive->Append(piece); }));
+    ARGMESH_RETURN_IF_ERROR(
+        ReadWholeMesh(meshes_, mesh, stop, [&](std::string_view piece) {
+          space.Wrote(static_cast<int64_t>(piece.size()));
+          return archive->Append(piece);
+        }));
   }
   ARGMESH_ASSIGN_OR_RETURN(const ArchiveSummary summary, archive->Finish());
   // The digest first: a snapshot is there when its archive is.

@@ -116,7 +116,8 @@ absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
 
 absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
     const CollectionRecord& record, const RequestStamp& request) {
-  ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(kCollectionBytes));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
+                           directory_->Claim(kCollectionBytes));
   absl::StatusOr<CollectionRecord> inserted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
@@ -128,6 +129,8 @@ absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
 
 absl::StatusOr<CollectionRecord> SqliteCatalog::UpdateCollection(
     const CollectionPatch& patch) {
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
+                           directory_->Claim(kCollectionBytes));
   absl::StatusOr<CollectionRecord> updated;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {

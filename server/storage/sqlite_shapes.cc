@@ -313,7 +313,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
                            put.descriptors.window_words.size() +
                            put.descriptors.windows.size()) +
       bytes.size() + kRowBytes;
-  ARGMESH_RETURN_IF_ERROR(directory_->CheckFreeSpace(size));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, directory_->Claim(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(size, [&](SqliteConnection& connection) {
@@ -325,9 +325,15 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
 
 absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
     const ShapePatch& patch) {
+  const int64_t size =
+      kRowBytes +
+      (patch.metadata
+           ? static_cast<int64_t>(SerializeMetadata(*patch.metadata).size())
+           : 0);
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, directory_->Claim(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
-      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+      writer_.Write(size, [&](SqliteConnection& connection) {
         written = Patch(connection, patch);
         return written.status();
       }));

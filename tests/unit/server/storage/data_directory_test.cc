@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/engine/error_reason.h"
+#include "tests/support/disk_ballast.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_directory.h"
 
@@ -63,6 +64,28 @@ TEST(DataDirectory, KeepsSpaceFree) {
   const absl::Status full = directory->CheckFreeSpace(int64_t{1} << 60);
   EXPECT_EQ(ReasonOf(full), ErrorReason::kStoreFull);
   EXPECT_TRUE(MetadataOf(full).contains("free_bytes"));
+}
+
+TEST(DataDirectory, CountsWhatIsClaimedAsTaken) {
+  const TemporaryDirectory folder;
+  DataDirectoryOptions options = kOptions;
+  options.min_free_bytes = FreeDiskBytes() - kDiskMargin;
+  ASSERT_OK_AND_ASSIGN(const std::shared_ptr<DataDirectory> directory,
+                       DataDirectory::Open(folder.path() / "data", options));
+  constexpr int64_t kMost = kDiskMargin * 3 / 4;
+  ASSERT_OK_AND_ASSIGN(SpaceClaim first, directory->Claim(kMost));
+  EXPECT_EQ(ReasonOf(directory->Claim(kMost).status()),
+            ErrorReason::kStoreFull);
+  EXPECT_EQ(ReasonOf(directory->CheckFreeSpace(kMost)),
+            ErrorReason::kStoreFull);
+  first.Wrote(kMost - 7);
+  EXPECT_EQ(first.bytes(), 7);
+  {
+    ASSERT_OK_AND_ASSIGN(const SpaceClaim second, directory->Claim(kMost));
+    EXPECT_FALSE(directory->Claim(kMost).ok());
+  }
+  first = SpaceClaim();
+  EXPECT_THAT(directory->Claim(kMost), IsOk());
 }
 
 TEST(DataDirectory, NamesAPathThatCannotBeAFolder) {

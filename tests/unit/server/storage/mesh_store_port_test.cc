@@ -8,6 +8,7 @@
 #include "server/engine/error_reason.h"
 #include "server/engine/mesh_store.h"
 #include "server/storage/directory_mesh_store.h"
+#include "tests/support/disk_ballast.h"
 #include "tests/support/memory_mesh_store.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_directory.h"
@@ -167,8 +168,8 @@ class DirectoryMeshStoreTest : public ::testing::Test {
     store_.reset();
     ASSERT_OK_AND_ASSIGN(
         std::shared_ptr<DataDirectory> directory,
-        DataDirectory::Open(
-            data_, {.min_free_bytes = 0, .allow_network_file_system = true}));
+        DataDirectory::Open(data_, {.min_free_bytes = min_free_bytes_,
+                                    .allow_network_file_system = true}));
     ASSERT_OK_AND_ASSIGN(store_, DirectoryMeshStore::Open(directory));
   }
   fs::path PathOf(const std::string& bytes) const {
@@ -178,6 +179,7 @@ class DirectoryMeshStoreTest : public ::testing::Test {
 
   TemporaryDirectory folder_;
   fs::path data_ = folder_.path() / "data";
+  int64_t min_free_bytes_ = 0;
   std::unique_ptr<DirectoryMeshStore> store_;
 };
 
@@ -228,6 +230,33 @@ TEST_F(DirectoryMeshStoreTest, RefusesAMeshThatDoesNotFit) {
   Open();
   EXPECT_EQ(ReasonOf(store_->StartWrite(int64_t{1} << 60).status()),
             ErrorReason::kStoreFull);
+}
+
+TEST_F(DirectoryMeshStoreTest, CountsWhatOtherWritersHaveAnnounced) {
+  min_free_bytes_ = FreeDiskBytes() - kDiskMargin;
+  Open();
+  constexpr int64_t kMost = kDiskMargin * 3 / 4;
+  ASSERT_OK_AND_ASSIGN(std::unique_ptr<MeshWriter> first,
+                       store_->StartWrite(kMost));
+  EXPECT_EQ(ReasonOf(store_->StartWrite(kMost).status()),
+            ErrorReason::kStoreFull);
+  first.reset();
+  EXPECT_THAT(store_->StartWrite(kMost), IsOk());
+}
+
+TEST_F(DirectoryMeshStoreTest, RefusesWhatWasNotAnnouncedOnAFullDisk) {
+  if (FreeDiskBytes() < 4 * kDiskMargin) GTEST_SKIP() << "too little to fill";
+  min_free_bytes_ = FreeDiskBytes() - kDiskMargin;
+  Open();
+  ASSERT_OK_AND_ASSIGN(const std::unique_ptr<MeshWriter> announced,
+                       store_->StartWrite(4));
+  ASSERT_OK_AND_ASSIGN(const std::unique_ptr<MeshWriter> unknown,
+                       store_->StartWrite(0));
+  const DiskBallast ballast(folder_.path() / "ballast");
+  if (!ballast.Take(2 * kDiskMargin)) GTEST_SKIP() << "no fallocate here";
+  EXPECT_THAT(announced->Append("mesh"), IsOk());
+  EXPECT_EQ(ReasonOf(announced->Append("more")), ErrorReason::kStoreFull);
+  EXPECT_EQ(ReasonOf(unknown->Append("mesh")), ErrorReason::kStoreFull);
 }
 
 }  // namespace

@@ -255,6 +255,15 @@ TEST_F(SqliteCatalogTest, RefusesToGrowWhenTheDiskIsLow) {
   const absl::Status full =
       catalog_->PutShape(SamplePut(cups_, "s1", 1)).status();
   EXPECT_EQ(ReasonOf(full), ErrorReason::kStoreFull);
+  ShapePatch shape;
+  shape.collection = "cups";
+  shape.id = "s0";
+  EXPECT_EQ(ReasonOf(catalog_->UpdateShape(shape).status()),
+            ErrorReason::kStoreFull);
+  CollectionPatch cups;
+  cups.id = "cups";
+  EXPECT_EQ(ReasonOf(catalog_->UpdateCollection(cups).status()),
+            ErrorReason::kStoreFull);
   EXPECT_THAT(catalog_->GetShape("cups", "s0"), IsOk());
   EXPECT_THAT(catalog_->DeleteShape({"cups", "s0", "", {}}), IsOk());
 }
