@@ -56,6 +56,10 @@ void AddTelemetry(CLI::App& app, ServerOptions& options) {
                  "file");
   app.add_option("--trace-log", options.trace_log,
                  "Add spans of calls to this file, OTLP as JSON lines");
+  app.add_option("--max-log-bytes", options.max_log_bytes,
+                 "Largest of each of these files; beyond it becomes FILE.1, in "
+                 "the place of the one before; 0: any size")
+      ->check(CLI::Range(int64_t{0}, int64_t{1} << 40));
   app.add_option("--metrics-listen", options.metrics_listen,
                  "HOST:PORT of /metrics for Prometheus; without key and "
                  "encryption");
@@ -234,6 +238,7 @@ std::string FormatServerOptions(const ServerOptions& options) {
       "\nlog-level=", Quoted(options.log_level),
       "\naudit-log=", Quoted(options.audit_log),
       "\ntrace-log=", Quoted(options.trace_log),
+      "\nmax-log-bytes=", options.max_log_bytes,
       "\nmetrics-listen=", Quoted(options.metrics_listen),
       "\nthreads=", options.threads,
       "\nmax-mesh-bytes=", options.max_mesh_bytes,

@@ -42,10 +42,11 @@ struct ServerOptions {
   std::string keys;
 
   // What is told of the work.
-  std::string log_level = "info";  // debug, info, warning, error
-  std::string audit_log;           // a file; empty: none
-  std::string trace_log;           // a file; empty: none
-  std::string metrics_listen;      // HOST:PORT; empty: none
+  std::string log_level = "info";      // debug, info, warning, error
+  std::string audit_log;               // a file; empty: none
+  std::string trace_log;               // a file; empty: none
+  int64_t max_log_bytes = 64LL << 20;  // of each of them, 0 .. 2^40; 0: any
+  std::string metrics_listen;          // HOST:PORT; empty: none
 
   std::string port_file;  // receives HOST:PORT when serving; empty: none
 

@@ -69,6 +69,7 @@ absl::StatusOr<TelemetryOptions> TelemetryOptionsOf(
                            ParseLogLevel(options.log_level));
   telemetry.audit_log = options.audit_log;
   telemetry.trace_log = options.trace_log;
+  telemetry.max_log_bytes = options.max_log_bytes;
   return telemetry;
 }
 

@@ -1,7 +1,9 @@
 // A file that whole lines are added to.
 //
 // Thread-safe. Opened for appending, so that several processes and a rotation
-// (rename, then Reopen) lose no line.
+// (rename, then Reopen) lose no line. A file that would grow beyond its bound
+// is renamed to FILE.1, in the place of the one before, and begun anew: both
+// together take twice the bound at most.
 #ifndef ARGMESH_SERVER_TELEMETRY_LINE_FILE_H_
 #define ARGMESH_SERVER_TELEMETRY_LINE_FILE_H_
 
@@ -19,9 +21,10 @@ namespace argmesh {
 
 class LineFile {
  public:
-  // Creates the file, readable by its owner only. kUnavailable naming it.
-  static absl::StatusOr<std::unique_ptr<LineFile>> Open(
-      const std::string& path);
+  // Creates the file, readable by its owner only. `max_bytes` is its bound; 0,
+  // and for what is no file (a terminal, a pipe): none. kUnavailable naming it.
+  static absl::StatusOr<std::unique_ptr<LineFile>> Open(const std::string& path,
+                                                        int64_t max_bytes = 0);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -36,11 +39,18 @@ class LineFile {
   absl::Status Reopen();
 
  private:
-  LineFile(std::string path, int descriptor);
+  LineFile(std::string path, int64_t max_bytes, int descriptor);
+  // With the mutex, all three.
+  void Use(int descriptor);
+  bool MakeRoom(int64_t bytes);
+  bool Rotate();
 
   const std::string path_;
+  const int64_t max_bytes_;
   std::mutex mutex_;
-  int descriptor_;
+  int descriptor_ = -1;
+  bool bounded_ = false;
+  int64_t bytes_ = 0;  // of the file
   std::atomic<int64_t> dropped_{0};
 };
 

@@ -52,12 +52,14 @@ absl::StatusOr<std::unique_ptr<Telemetry>> Telemetry::Open(
     const TelemetryOptions& options, std::ostream& log) {
   std::unique_ptr<Telemetry> telemetry(new Telemetry(log, options.log_level));
   if (!options.audit_log.empty()) {
-    ARGMESH_ASSIGN_OR_RETURN(telemetry->audit_,
-                             LineFile::Open(options.audit_log));
+    ARGMESH_ASSIGN_OR_RETURN(
+        telemetry->audit_,
+        LineFile::Open(options.audit_log, options.max_log_bytes));
   }
   if (!options.trace_log.empty()) {
-    ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<LineFile> file,
-                             LineFile::Open(options.trace_log));
+    ARGMESH_ASSIGN_OR_RETURN(
+        std::unique_ptr<LineFile> file,
+        LineFile::Open(options.trace_log, options.max_log_bytes));
     telemetry->spans_ = std::make_unique<SpanLog>(std::move(file));
   }
   return telemetry;

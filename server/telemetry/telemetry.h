@@ -10,6 +10,7 @@
 #ifndef ARGMESH_SERVER_TELEMETRY_TELEMETRY_H_
 #define ARGMESH_SERVER_TELEMETRY_TELEMETRY_H_
 
+#include <cstdint>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -28,6 +29,8 @@ struct TelemetryOptions {
   LogLevel log_level = LogLevel::kInfo;
   std::string audit_log;  // a file; empty: none
   std::string trace_log;  // a file; empty: none
+  // Bound of each of the two files, as LineFile; 0: none.
+  int64_t max_log_bytes = 0;
 };
 
 class Telemetry {

@@ -154,6 +154,8 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
                             "audit",
                             "--trace-log",
                             "spans",
+                            "--max-log-bytes",
+                            "7000",
                             "--metrics-listen",
                             "127.0.0.1:9464",
                             "--import-root",
@@ -173,6 +175,7 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
   EXPECT_EQ(second->options.log_level, "debug");
   EXPECT_EQ(second->options.audit_log, "audit");
   EXPECT_EQ(second->options.trace_log, "spans");
+  EXPECT_EQ(second->options.max_log_bytes, 7000);
   EXPECT_EQ(second->options.metrics_listen, "127.0.0.1:9464");
   EXPECT_EQ(second->options.import_root, "/srv/meshes");
 }

@@ -71,6 +71,47 @@ TEST(LineFile, KeepsItsFileWhenThePathCannotBeOpenedAgain) {
             std::vector<std::string>{"still"});
 }
 
+TEST(LineFile, TakesTwiceItsBoundAtMost) {
+  const TemporaryDirectory folder;
+  const std::string path = folder.path() / "log";
+  std::ofstream(path) << "before\n";
+  auto file = LineFile::Open(path, 14);
+  ASSERT_TRUE(file.ok()) << file.status();
+  for (const char* line : {"line 1", "line 2", "line 3", "line 4"}) {
+    (*file)->Write(line);
+  }
+  EXPECT_EQ(LinesOf(path + ".1"),
+            (std::vector<std::string>{"line 2", "line 3"}));
+  EXPECT_EQ(LinesOf(path), std::vector<std::string>{"line 4"});
+  (*file)->Write("a line that is longer than all of it");
+  (*file)->Write("line 5");
+  EXPECT_EQ(LinesOf(path), std::vector<std::string>{"line 5"});
+  EXPECT_EQ((*file)->dropped(), 0);
+  struct stat status {};
+  ASSERT_EQ(stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600U);
+}
+
+TEST(LineFile, DropsLinesRatherThanGrowBeyondItsBound) {
+  const TemporaryDirectory folder;
+  const std::string path = folder.path() / "log";
+  auto file = LineFile::Open(path, 14);
+  ASSERT_TRUE(file.ok()) << file.status();
+  std::filesystem::create_directories(path + ".1/in the way");
+  for (const char* line : {"line 1", "line 2", "line 3"}) (*file)->Write(line);
+  EXPECT_EQ((*file)->dropped(), 1);
+  std::filesystem::remove_all(path + ".1");
+  (*file)->Write("line 4");
+  EXPECT_EQ(LinesOf(path), std::vector<std::string>{"line 4"});
+}
+
+TEST(LineFile, BoundsNothingButFiles) {
+  auto file = LineFile::Open("/dev/null", 3);
+  ASSERT_TRUE(file.ok()) << file.status();
+  for (int i = 0; i < 3; ++i) (*file)->Write("line");
+  EXPECT_EQ((*file)->dropped(), 0);
+}
+
 TEST(LineFile, CountsWhatItCannotWrite) {
   auto file = LineFile::Open("/dev/full");
   ASSERT_TRUE(file.ok()) << file.status();
