@@ -6,12 +6,15 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
+#include "core/base/stop_token.h"
 #include "server/options.h"
 #include "server/serving.h"
 
@@ -28,6 +32,7 @@ namespace {
 
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
+constexpr absl::Duration kBetweenLooks = absl::Milliseconds(10);
 
 // Written whole or not at all: a script that sees the file can read it.
 absl::Status WritePortFile(const std::string& path,
@@ -55,12 +60,39 @@ sigset_t StopSignals() {
   return signals;
 }
 
-// False when a second signal came before `delay` was over.
-bool WaitUnlessSignalled(absl::Duration delay) {
+// Waits for a signal to stop, at most so long; 0 when there was none.
+int WaitForStop(absl::Duration at_most) {
   const sigset_t signals = StopSignals();
-  const timespec time = absl::ToTimespec(delay);
-  return sigtimedwait(&signals, nullptr, &time) < 0;
+  const timespec time = absl::ToTimespec(at_most);
+  return std::max(0, sigtimedwait(&signals, nullptr, &time));
 }
+
+// Takes the signals while the server is not there yet.
+class StopWhileOpening {
+ public:
+  StopWhileOpening()
+      : watcher_([this](const std::stop_token& end) {
+          while (signal_ == 0 && !end.stop_requested()) {
+            signal_ = WaitForStop(kBetweenLooks);
+          }
+          if (signal_ != 0) stop_.request_stop();
+        }) {}
+
+  StopToken token() const {
+    return StopToken(stop_.get_token(), absl::InfiniteFuture());
+  }
+  // The signal that came; 0: none. Takes none from now on.
+  int End() {
+    watcher_.request_stop();
+    if (watcher_.joinable()) watcher_.join();
+    return signal_;
+  }
+
+ private:
+  std::stop_source stop_;
+  int signal_ = 0;  // the watcher's until it has ended
+  std::jthread watcher_;
+};
 
 // NOT_SERVING, the drain delay, then no new calls and the end of those there
 // are. A second signal skips the waiting.
@@ -68,7 +100,7 @@ void Drain(const ServerOptions& options, RpcServer& server, EventLog& log) {
   server.StopAdvertising();
   absl::Duration timeout = options.drain_timeout;
   if (options.drain_delay > absl::ZeroDuration() &&
-      !WaitUnlessSignalled(options.drain_delay)) {
+      WaitForStop(options.drain_delay) != 0) {
     timeout = absl::ZeroDuration();
   }
   const absl::Time begin = absl::Now();
@@ -95,8 +127,16 @@ void Reload(const std::vector<std::string>& arguments, Serving& serving) {
 
 absl::Status Serve(const std::vector<std::string>& arguments,
                    const ServerOptions& options, std::ostream& log) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::unique_ptr<Serving> serving,
-                           Serving::Start(options, log));
+  StopWhileOpening opening;
+  absl::StatusOr<std::unique_ptr<Serving>> started =
+      Serving::Start(options, log, opening.token());
+  int signal = opening.End();
+  if (signal != 0 && absl::IsCancelled(started.status())) {
+    EventLog(log).Write(LogLevel::kInfo, "stopped before it served");
+    return absl::OkStatus();
+  }
+  ARGMESH_RETURN_IF_ERROR(started.status());
+  const std::unique_ptr<Serving> serving = *std::move(started);
   if (!options.port_file.empty()) {
     ARGMESH_RETURN_IF_ERROR(
         WritePortFile(options.port_file, serving->rpc().address()));
@@ -108,9 +148,9 @@ absl::Status Serve(const std::vector<std::string>& arguments,
 
   sigset_t signals = StopSignals();
   sigaddset(&signals, SIGHUP);
-  int signal = 0;
-  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) {
-    Reload(arguments, *serving);
+  while (signal == 0 || signal == SIGHUP) {
+    if (signal == SIGHUP) Reload(arguments, *serving);
+    sigwait(&signals, &signal);
   }
   serving->log().Write(
       LogLevel::kInfo, "stopping",

@@ -128,7 +128,7 @@ absl::Status Restore(const ServerOptions& options, std::ostream& out) {
 }
 
 absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
-    const ServerOptions& options, std::ostream& log) {
+    const ServerOptions& options, std::ostream& log, const StopToken& stop) {
   RaiseDescriptorLimit();
   std::unique_ptr<Serving> serving(new Serving());
   serving->options_ = options;
@@ -136,7 +136,7 @@ absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
                            TelemetryOptionsOf(options));
   ARGMESH_ASSIGN_OR_RETURN(serving->telemetry_,
                            Telemetry::Open(telemetry, log));
-  ARGMESH_RETURN_IF_ERROR(serving->OpenStore());
+  ARGMESH_RETURN_IF_ERROR(serving->OpenStore(stop));
   ARGMESH_ASSIGN_OR_RETURN(RpcServerOptions rpc, RpcOptionsOf(options));
   rpc.store_admin = serving->snapshots_.get();
   if (!options.import_root.empty()) {
@@ -151,15 +151,17 @@ absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
   return serving;
 }
 
-absl::Status Serving::OpenStore() {
+absl::Status Serving::OpenStore(const StopToken& stop) {
   ARGMESH_ASSIGN_OR_RETURN(std::shared_ptr<DataDirectory> directory,
                            DataDirectory::Open(options_.data));
+  log().Write(LogLevel::kInfo, "opening the store",
+              {{"check", !directory->IsMarkedClean()}});
   ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<DirectoryMeshStore> meshes,
                            DirectoryMeshStore::Open(directory));
   ARGMESH_ASSIGN_OR_RETURN(snapshots_,
                            SnapshotDirectory::Open(directory, *meshes));
   ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<SqliteCatalog> catalog,
-                           SqliteCatalog::Open(directory));
+                           SqliteCatalog::Open(directory, {}, stop));
   ARGMESH_ASSIGN_OR_RETURN(
       engine_, Engine::Create(EngineOptionsOf(options_), std::move(catalog),
                               std::move(meshes)));

@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "core/base/stop_token.h"
 #include "server/engine/engine.h"
 #include "server/options.h"
 #include "server/rpc/rpc_server.h"
@@ -32,8 +33,10 @@ absl::Status Restore(const ServerOptions& options, std::ostream& out);
 class Serving {
  public:
   // Serves when it returns. The log goes to `log`, which must outlive it.
+  // Nothing listens while the store is opened, which may take minutes when the
+  // last stop was not clean; fails as `stop` when that ends it.
   static absl::StatusOr<std::unique_ptr<Serving>> Start(
-      const ServerOptions& options, std::ostream& log);
+      const ServerOptions& options, std::ostream& log, const StopToken& stop);
   ~Serving();
 
   EventLog& log() { return telemetry_->log(); }
@@ -49,7 +52,7 @@ class Serving {
 
  private:
   Serving() = default;
-  absl::Status OpenStore();
+  absl::Status OpenStore(const StopToken& stop);
   absl::Status StartMetrics();
 
   ServerOptions options_;

@@ -5,12 +5,24 @@
 
 #include "core/base/status_macros.h"
 #include "server/storage/schema.h"
+#include "server/storage/stopped_queries.h"
 
 namespace argmesh {
+namespace {
+
+absl::Status Prepare(SqliteConnection& connection,
+                     const std::filesystem::path& path, bool check,
+                     const StopToken& stop) {
+  const StoppedQueries queries(connection, stop);
+  ARGMESH_RETURN_IF_ERROR(Migrate(connection, path, CatalogMigrations()));
+  return check ? CheckDatabase(connection) : absl::OkStatus();
+}
+
+}  // namespace
 
 absl::StatusOr<std::unique_ptr<SqliteCatalog>> SqliteCatalog::Open(
     std::shared_ptr<DataDirectory> directory,
-    const SqliteCatalogOptions& options) {
+    const SqliteCatalogOptions& options, const StopToken& stop) {
   const std::filesystem::path path = directory->database_path();
   std::error_code error;
   const bool existed = std::filesystem::exists(path, error);
@@ -19,10 +31,8 @@ absl::StatusOr<std::unique_ptr<SqliteCatalog>> SqliteCatalog::Open(
   ARGMESH_ASSIGN_OR_RETURN(
       std::unique_ptr<SqliteConnection> connection,
       SqliteConnection::Open(path, SqliteConnection::Mode::kReadWrite));
-  ARGMESH_RETURN_IF_ERROR(Migrate(*connection, path, CatalogMigrations()));
-  if (existed && !clean) {
-    ARGMESH_RETURN_IF_ERROR(CheckDatabase(*connection));
-  }
+  ARGMESH_RETURN_IF_ERROR(
+      OrStopped(Prepare(*connection, path, existed && !clean, stop), stop));
   ARGMESH_RETURN_IF_ERROR(SyncDirectory(directory->path()));
   return std::unique_ptr<SqliteCatalog>(
       new SqliteCatalog(std::move(directory), std::move(connection), options));

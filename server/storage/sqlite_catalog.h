@@ -28,12 +28,13 @@ struct SqliteCatalogOptions {
 class SqliteCatalog : public Catalog {
  public:
   // Creates or migrates the database; checks it when the last stop was not
-  // clean.
+  // clean. Both take time in proportion to it, and leave it as it was when
+  // `stop` ends them.
   //
-  // Fails    as Migrate and CheckDatabase
+  // Fails    as Migrate and CheckDatabase, and as `stop`
   static absl::StatusOr<std::unique_ptr<SqliteCatalog>> Open(
       std::shared_ptr<DataDirectory> directory,
-      const SqliteCatalogOptions& options = {});
+      const SqliteCatalogOptions& options = {}, const StopToken& stop = {});
   ~SqliteCatalog() override;  // Close
 
   absl::StatusOr<CollectionRecord> InsertCollection(

@@ -35,7 +35,7 @@ nlohmann::ordered_json CommandOutcome::Json() const {
   return nlohmann::ordered_json::parse(out, nullptr, false);
 }
 
-bool Installation::StartServer(const std::vector<std::string>& more) {
+void Installation::LaunchServer(const std::vector<std::string>& more) {
   server_.reset();
   const fs::path port_file = folder() / "address";
   fs::remove(port_file);
@@ -48,9 +48,13 @@ bool Installation::StartServer(const std::vector<std::string>& more) {
                                     port_file.string()};
   words.insert(words.end(), more.begin(), more.end());
   server_.emplace(words, folder(), "server");
+}
+
+bool Installation::StartServer(const std::vector<std::string>& more) {
+  LaunchServer(more);
   const auto end = std::chrono::steady_clock::now() + kStartTimeout;
   while (std::chrono::steady_clock::now() < end && server_->Running()) {
-    std::string text = ReadAll(port_file);
+    std::string text = ReadFile("address");
     if (text.ends_with('\n')) text.pop_back();
     if (!text.empty()) {
       address_ = text;

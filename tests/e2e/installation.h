@@ -32,6 +32,8 @@ class Installation {
   // it ran before, with `more` options. False with its log on stderr when it
   // does not come up.
   bool StartServer(const std::vector<std::string>& more = {});
+  // Starts it and returns.
+  void LaunchServer(const std::vector<std::string>& more = {});
   // Waits until the server has logged `text` so many times; false when it does
   // not.
   bool WaitForLog(const std::string& text, int times = 1);
