@@ -60,9 +60,10 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
     (void)p.catalog->RemoveUnusedGraphs(token);
     (void)p.meshes->Sweep(
         absl::Now() - p.options.sweep_age,
-        [&](const Sha256Digest& sha256) -> absl::StatusOr<bool> {
-          if (stop.stop_requested()) return absl::CancelledError("closing");
-          return p.catalog->IsMeshReferenced(sha256);
+        [&catalog = *p.catalog,
+         token](const Sha256Digest& sha256) -> absl::StatusOr<bool> {
+          ARGMESH_RETURN_IF_ERROR(token.Check());
+          return catalog.IsMeshReferenced(sha256);
         });
   });
   return std::unique_ptr<Engine>(new Engine(std::move(parts)));

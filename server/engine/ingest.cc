@@ -83,8 +83,8 @@ Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
       running_(running) {}
 
 MeshStore::IsReferenced Ingest::is_referenced() const {
-  return [this](const Sha256Digest& sha256) {
-    return catalog_.IsMeshReferenced(sha256);
+  return [&catalog = catalog_](const Sha256Digest& sha256) {
+    return catalog.IsMeshReferenced(sha256);
   };
 }
 

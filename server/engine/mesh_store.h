@@ -74,7 +74,8 @@ class MeshStore {
       const Sha256Digest& sha256) const = 0;
 
   // Removes the mesh unless it is pinned or referenced; nobody can pin it
-  // while `is_referenced` runs. A mesh that is not there is no error.
+  // while `is_referenced` runs, which may be later, as long as the store lives.
+  // A mesh that is not there is no error.
   virtual absl::Status RemoveUnreferenced(
       const Sha256Digest& sha256, const IsReferenced& is_referenced) = 0;
 

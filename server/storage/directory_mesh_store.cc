@@ -99,11 +99,33 @@ struct DirectoryMeshStore::Shared {
   // Guards the pins; held over a removal, so that nothing is pinned in it.
   std::mutex mutex;
   std::map<Sha256Digest, int> pins;
-  int holds = 0;  // of HoldRemovals, guarded too
+  // Guarded too: those of HoldRemovals, and what waits for their end.
+  int holds = 0;
+  std::map<Sha256Digest, IsReferenced> released;
 
   fs::path PathOf(const Sha256Digest& sha256) const {
     const std::string name = ToHex(sha256);
     return directory->blobs_path() / name.substr(0, 2) / name;
+  }
+
+  // With the mutex.
+  absl::Status Remove(const Sha256Digest& sha256,
+                      const IsReferenced& is_referenced) const {
+    if (pins.contains(sha256)) return absl::OkStatus();
+    ARGMESH_ASSIGN_OR_RETURN(const bool referenced, is_referenced(sha256));
+    if (referenced) return absl::OkStatus();
+    const fs::path path = PathOf(sha256);
+    if (::unlink(path.c_str()) == 0 || errno == ENOENT) return absl::OkStatus();
+    return FileError("unlink", path, errno);
+  }
+
+  void EndHold() {
+    const std::lock_guard lock(mutex);
+    if (--holds > 0) return;
+    // One that cannot be removed goes with the sweep of the next start.
+    for (const auto& [sha256, is_referenced] : std::exchange(released, {})) {
+      (void)Remove(sha256, is_referenced);
+    }
   }
 
   void Unpin(const Sha256Digest& sha256) {
@@ -206,7 +228,10 @@ class FileMeshWriter : public MeshWriter {
 
 DirectoryMeshStore::DirectoryMeshStore(std::shared_ptr<Shared> shared)
     : shared_(std::move(shared)) {}
-DirectoryMeshStore::~DirectoryMeshStore() = default;
+DirectoryMeshStore::~DirectoryMeshStore() {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->released.clear();
+}
 
 absl::StatusOr<std::unique_ptr<DirectoryMeshStore>> DirectoryMeshStore::Open(
     std::shared_ptr<DataDirectory> directory) {
@@ -253,24 +278,16 @@ absl::StatusOr<std::unique_ptr<MeshReader>> DirectoryMeshStore::Open(
 absl::Status DirectoryMeshStore::RemoveUnreferenced(
     const Sha256Digest& sha256, const IsReferenced& is_referenced) {
   const std::lock_guard lock(shared_->mutex);
-  if (shared_->holds > 0 || shared_->pins.contains(sha256)) {
-    return absl::OkStatus();
-  }
-  ARGMESH_ASSIGN_OR_RETURN(const bool referenced, is_referenced(sha256));
-  if (referenced) return absl::OkStatus();
-  const fs::path path = shared_->PathOf(sha256);
-  if (::unlink(path.c_str()) == 0 || errno == ENOENT) return absl::OkStatus();
-  return FileError("unlink", path, errno);
+  if (shared_->holds == 0) return shared_->Remove(sha256, is_referenced);
+  shared_->released[sha256] = is_referenced;
+  return absl::OkStatus();
 }
 
 MeshPin DirectoryMeshStore::HoldRemovals() {
   const std::lock_guard lock(shared_->mutex);
   ++shared_->holds;
   return MeshPin(static_cast<const void*>(this),
-                 [shared = shared_](const void*) {
-                   const std::lock_guard release(shared->mutex);
-                   --shared->holds;
-                 });
+                 [shared = shared_](const void*) { shared->EndHold(); });
 }
 
 absl::StatusOr<int64_t> DirectoryMeshStore::Sweep(

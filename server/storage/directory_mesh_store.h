@@ -33,8 +33,8 @@ class DirectoryMeshStore : public MeshStore {
   absl::StatusOr<int64_t> Sweep(absl::Time older_than,
                                 const IsReferenced& is_referenced) override;
 
-  // While what it returns lives no mesh is removed; what would have been goes
-  // with the sweep of the next start.
+  // While what it returns lives no mesh is removed; what would have been is
+  // when the last of them goes.
   MeshPin HoldRemovals();
 
  private:

@@ -154,20 +154,42 @@ TEST_F(SnapshotDirectoryTest, RemovesAtTheStartWhatACrashLeft) {
   EXPECT_EQ(FilesOfSnapshots(), 0U);
 }
 
-TEST_F(SnapshotDirectoryTest, KeepsMeshesWhileRemovalsAreHeld) {
+TEST_F(SnapshotDirectoryTest, KeepsMeshesUntilNothingHoldsRemovalsAnyMore) {
   const std::filesystem::path blob = BlobOf("cup-1");
+  const std::filesystem::path named = BlobOf("cup-2");
   const Sha256Digest sha256 =
       samples_.catalog().GetShape("cups", "cup-1")->sha256;
-  const auto nobody = [](const Sha256Digest&) -> absl::StatusOr<bool> {
-    return false;
+  const auto is_referenced = [&](const Sha256Digest& other) {
+    return absl::StatusOr<bool>(other != sha256);
   };
-  {
-    const MeshPin hold = samples_.meshes().HoldRemovals();
-    ASSERT_TRUE(samples_.meshes().RemoveUnreferenced(sha256, nobody).ok());
-    EXPECT_TRUE(std::filesystem::exists(blob));
+  MeshPin first = samples_.meshes().HoldRemovals();
+  MeshPin second = samples_.meshes().HoldRemovals();
+  for (const char* id : {"cup-1", "cup-2"}) {
+    ASSERT_TRUE(
+        samples_.meshes()
+            .RemoveUnreferenced(samples_.catalog().GetShape("cups", id)->sha256,
+                                is_referenced)
+            .ok());
   }
-  ASSERT_TRUE(samples_.meshes().RemoveUnreferenced(sha256, nobody).ok());
+  first.reset();
+  EXPECT_TRUE(std::filesystem::exists(blob));
+  second.reset();
   EXPECT_FALSE(std::filesystem::exists(blob));
+  EXPECT_TRUE(std::filesystem::exists(named)) << "a row names it again";
+}
+
+TEST_F(SnapshotDirectoryTest, LetsAHoldOutliveTheStore) {
+  const std::filesystem::path blob = BlobOf("cup-1");
+  const MeshPin hold = samples_.meshes().HoldRemovals();
+  ASSERT_TRUE(samples_.meshes()
+                  .RemoveUnreferenced(
+                      samples_.catalog().GetShape("cups", "cup-1")->sha256,
+                      [](const Sha256Digest&) -> absl::StatusOr<bool> {
+                        ADD_FAILURE() << "nobody is left to ask";
+                        return false;
+                      })
+                  .ok());
+  samples_.Close();
 }
 
 TEST_F(SnapshotDirectoryTest, FindsNothingInASoundStore) {
