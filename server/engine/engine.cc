@@ -1,6 +1,9 @@
 #include "server/engine/engine.h"
 
+#include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -15,6 +18,23 @@
 
 namespace argmesh {
 namespace {
+
+constexpr absl::Duration kFirstRetry = absl::Seconds(1);
+constexpr absl::Duration kLastRetry = absl::Minutes(5);
+
+// Until no collection is missing or the engine closes; ever more seldom.
+void KeepLoading(Gallery& gallery, const std::stop_token& stop) {
+  const StopToken token(stop, absl::InfiniteFuture());
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any wake;  // by `stop` alone
+  absl::Duration wait = kFirstRetry;
+  while (!gallery.LoadMissing(token) && !stop.stop_requested()) {
+    wake.wait_for(lock, stop, absl::ToChronoMilliseconds(wait),
+                  [] { return false; });
+    wait = std::min(2 * wait, kLastRetry);
+  }
+}
 
 absl::Status CheckOptions(const EngineOptions& options) {
   if (options.max_compute_time <= absl::ZeroDuration() ||
@@ -65,6 +85,7 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
           ARGMESH_RETURN_IF_ERROR(token.Check());
           return catalog.IsMeshReferenced(sha256);
         });
+    KeepLoading(p.gallery, stop);
   });
   return std::unique_ptr<Engine>(new Engine(std::move(parts)));
 }

@@ -45,7 +45,8 @@ class Engine::Parts {
   ShapeSearch search;
   std::atomic<bool> closed{false};
   std::mutex close_mutex;
-  std::jthread startup;  // loads the gallery, then sweeps the stores
+  // Loads the gallery, sweeps the stores, then tries again what was not loaded.
+  std::jthread startup;
 };
 
 }  // namespace argmesh

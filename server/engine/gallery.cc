@@ -50,6 +50,13 @@ Gallery::SlotPtr Gallery::FindSlot(std::string_view collection) const {
   return it == slots_.end() ? nullptr : it->second;
 }
 
+std::vector<Gallery::SlotPtr> Gallery::Slots() const {
+  std::vector<SlotPtr> slots;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, slot] : slots_) slots.push_back(slot);
+  return slots;
+}
+
 std::unique_lock<std::mutex> Gallery::LockCollections() {
   return std::unique_lock(collections_mutex_);
 }
@@ -93,19 +100,20 @@ void Gallery::Load(const StopToken& stop) {
     if (!stop.Check().ok()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  std::vector<SlotPtr> slots;
-  {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [id, slot] : slots_) slots.push_back(slot);
-  }
-  for (const SlotPtr& slot : slots) {
+  LoadMissing(stop);
+  if (stop.Check().ok()) SetState(IndexState::kServing);
+}
+
+bool Gallery::LoadMissing(const StopToken& stop) {
+  bool complete = true;
+  for (const SlotPtr& slot : Slots()) {
     if (slot->index.snapshot() != nullptr) continue;
     const absl::Status status = LoadSlot(*slot, stop);
-    if (status.ok()) continue;
+    complete = complete && status.ok();
     const std::lock_guard lock(slot->mutex);
     slot->error = status;
   }
-  if (stop.Check().ok()) SetState(IndexState::kServing);
+  return complete;
 }
 
 absl::Status Gallery::LoadSlot(Slot& slot, const StopToken& stop) {
@@ -393,13 +401,8 @@ absl::Status Gallery::WaitUntilServing(const StopToken& stop) const {
 }
 
 std::vector<CollectionHealth> Gallery::Health() const {
-  std::vector<SlotPtr> slots;
-  {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [id, slot] : slots_) slots.push_back(slot);
-  }
   std::vector<CollectionHealth> health;
-  for (const SlotPtr& slot : slots) {
+  for (const SlotPtr& slot : Slots()) {
     CollectionHealth& item = health.emplace_back();
     item.id = slot->id;
     if (const GallerySnapshotPtr snapshot = slot->index.snapshot()) {

@@ -4,9 +4,8 @@
 // catalog's changes in the order of their generations, so that a write that
 // returned is seen by every later search. A collection that was switched to
 // other settings is built anew beside the old state, which serves until then. A
-// collection that cannot be read is
-// reported and does not stop the others; a damaged shape is left out and
-// counted. Thread-safe.
+// collection that cannot be read is reported, does not stop the others, and is
+// tried again; a damaged shape is left out and counted. Thread-safe.
 #ifndef ARGMESH_SERVER_ENGINE_GALLERY_H_
 #define ARGMESH_SERVER_ENGINE_GALLERY_H_
 
@@ -44,6 +43,9 @@ class Gallery {
 
   // Once, for all that is stored; then the state is kServing.
   void Load(const StopToken& stop);
+  // After it: tries the collections again that could not be read. True when
+  // none is missing now.
+  bool LoadMissing(const StopToken& stop);
   // The state is kClosed; waits for nothing.
   void Close();
 
@@ -93,6 +95,7 @@ class Gallery {
   using SlotPtr = std::shared_ptr<Slot>;
 
   SlotPtr FindSlot(std::string_view collection) const;
+  std::vector<SlotPtr> Slots() const;  // by id
   absl::Status AddStored();
   absl::Status LoadSlot(Slot& slot, const StopToken& stop);
   void CatchUp(Slot& slot) const;

@@ -91,6 +91,34 @@ TEST(GalleryOfATornCatalog, ServesTheCollectionsThatItCanLoad) {
   EXPECT_EQ(health[1].error, "");
 }
 
+TEST(GalleryOfATornCatalog, LoadsACollectionOnceItCanBeRead) {
+  TornCatalog catalog;
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog.InsertCollection(cups, {}), IsOk());
+  for (const char* id : {"gone", "kept"}) {
+    ASSERT_THAT(catalog.PutShape(SamplePut(cups, id, 1)), IsOk());
+  }
+  catalog.torn_uid = cups.uid;
+  ComputePool pool({.threads = {1, 1, 1}});
+  Gallery gallery(catalog, pool);
+  gallery.Load({});
+  EXPECT_FALSE(gallery.LoadMissing({}));
+  // Writes go on meanwhile.
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted deleted,
+                       catalog.DeleteShape({"cups", "gone", "", {}}));
+  gallery.Follow("cups", cups.uid, deleted.generation, std::nullopt);
+  ASSERT_OK_AND_ASSIGN(const ShapeWritten put,
+                       catalog.PutShape(SamplePut(cups, "new", 1)));
+  gallery.Follow("cups", cups.uid, put.record.generation, std::nullopt);
+
+  catalog.torn_uid.clear();
+  EXPECT_TRUE(gallery.LoadMissing({}));
+  ASSERT_OK_AND_ASSIGN(const GallerySnapshotPtr snapshot,
+                       gallery.Snapshot("cups", put.record.generation));
+  EXPECT_EQ(snapshot->size, 2);
+  EXPECT_EQ(gallery.Health()[0].error, "");
+}
+
 TEST_F(GalleryTest, LoadsWhatIsStoredAndTellsWhenItIsDone) {
   std::vector<IndexState> states;
   gallery_.Watch([&](IndexState state) { states.push_back(state); });
