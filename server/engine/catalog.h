@@ -89,7 +89,8 @@ class Catalog {
   // The windows of one shape, empty when it has none. kShapeNotFound.
   virtual absl::StatusOr<std::string> ReadWindows(
       std::string_view collection_uid, std::string_view id) const = 0;
-  // Changes after `after_generation`, ascending. An unknown uid has none.
+  // Changes after `after_generation`, ascending, but for those that are
+  // forgotten (ForgetChanges). An unknown uid has none.
   virtual absl::StatusOr<std::vector<ShapeChange>> ReadChanges(
       std::string_view collection_uid, int64_t after_generation,
       int limit) const = 0;
@@ -128,6 +129,9 @@ class Catalog {
   // Frees what switches and forgotten stages left behind, in small writes
   // between others. What it does not come to stays for the next call.
   virtual absl::Status RemoveUnusedGraphs(const StopToken& stop) = 0;
+  // Forgets the changes of before the catalog was opened, as the above: who
+  // follows it begins with the state it finds, and needs only later ones.
+  virtual absl::Status ForgetChanges(const StopToken& stop) = 0;
 
   // --- meshes and requests -----------------------------------------------
   virtual absl::StatusOr<bool> IsMeshReferenced(

@@ -77,6 +77,7 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
     const StopToken token(stop, absl::InfiniteFuture());
     p.gallery.Load(token);
     // Nothing waits for the sweeps; what they leave goes at the next start.
+    (void)p.catalog->ForgetChanges(token);
     (void)p.catalog->RemoveUnusedGraphs(token);
     (void)p.meshes->Sweep(
         absl::Now() - p.options.sweep_age,

@@ -26,4 +26,19 @@ absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
   return generation;
 }
 
+absl::Status NoteOpening(SqliteConnection& connection) {
+  return connection.Execute(
+      "CREATE TEMP TABLE found AS SELECT id, generation FROM collection");
+}
+
+absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t forgotten,
+      connection.Run("DELETE FROM change_log WHERE (collection_id, generation) "
+                     "IN (SELECT l.collection_id, l.generation FROM found f "
+                     "JOIN change_log l ON l.collection_id = f.id "
+                     "AND l.generation <= f.generation LIMIT 1000)"));
+  return forgotten > 0;
+}
+
 }  // namespace argmesh

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "server/engine/catalog_requests.h"
 #include "server/storage/sqlite_connection.h"
@@ -16,6 +17,11 @@ namespace argmesh {
 absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
                                   int64_t collection, const std::string& id,
                                   ShapeChange::Kind kind, int added);
+
+// Once, when the writing connection is opened: the generations that there are.
+absl::Status NoteOpening(SqliteConnection& connection);
+// Removes some of the changes up to these; false when none is left.
+absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection);
 
 }  // namespace argmesh
 

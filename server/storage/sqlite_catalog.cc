@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "server/storage/change_log.h"
 #include "server/storage/schema.h"
 #include "server/storage/stopped_queries.h"
 
 namespace argmesh {
 namespace {
+
+constexpr int64_t kForgottenBytes = 64 << 10;  // about what one write changes
 
 absl::Status Prepare(SqliteConnection& connection,
                      const std::filesystem::path& path, bool check,
@@ -33,6 +36,7 @@ absl::StatusOr<std::unique_ptr<SqliteCatalog>> SqliteCatalog::Open(
       SqliteConnection::Open(path, SqliteConnection::Mode::kReadWrite));
   ARGMESH_RETURN_IF_ERROR(
       OrStopped(Prepare(*connection, path, existed && !clean, stop), stop));
+  ARGMESH_RETURN_IF_ERROR(NoteOpening(*connection));
   ARGMESH_RETURN_IF_ERROR(SyncDirectory(directory->path()));
   return std::unique_ptr<SqliteCatalog>(
       new SqliteCatalog(std::move(directory), std::move(connection), options));
@@ -71,6 +75,19 @@ StoreLoad SqliteCatalog::Load() const {
     return absl::OkStatus();
   });
   return load;
+}
+
+absl::Status SqliteCatalog::ForgetChanges(const StopToken& stop) {
+  bool more = true;
+  while (more) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
+    ARGMESH_RETURN_IF_ERROR(writer_.Write(
+        kForgottenBytes, [&more](SqliteConnection& connection) -> absl::Status {
+          ARGMESH_ASSIGN_OR_RETURN(more, ForgetSomeChanges(connection));
+          return absl::OkStatus();
+        }));
+  }
+  return absl::OkStatus();
 }
 
 SqliteCatalog::~SqliteCatalog() { (void)SqliteCatalog::Close(); }

@@ -86,6 +86,7 @@ class SqliteCatalog : public Catalog {
   absl::StatusOr<std::optional<CollectionRecord>> SwitchSettings(
       const SettingsSwitch& change) override;
   absl::Status RemoveUnusedGraphs(const StopToken& stop) override;
+  absl::Status ForgetChanges(const StopToken& stop) override;
 
   absl::StatusOr<bool> IsMeshReferenced(
       const Sha256Digest& sha256) const override;

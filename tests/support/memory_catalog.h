@@ -68,6 +68,7 @@ class MemoryCatalog : public Catalog {
   absl::StatusOr<std::optional<CollectionRecord>> SwitchSettings(
       const SettingsSwitch& change) override;
   absl::Status RemoveUnusedGraphs(const StopToken& stop) override;
+  absl::Status ForgetChanges(const StopToken& stop) override;
   absl::StatusOr<bool> IsMeshReferenced(
       const Sha256Digest& sha256) const override;
   absl::StatusOr<std::optional<ShapeWritten>> FindPutShape(

@@ -108,4 +108,8 @@ absl::Status MemoryCatalog::RemoveUnusedGraphs(const StopToken&) {
   return absl::OkStatus();  // nothing is left behind
 }
 
+absl::Status MemoryCatalog::ForgetChanges(const StopToken&) {
+  return absl::OkStatus();  // it has been open for ever
+}
+
 }  // namespace argmesh

@@ -307,6 +307,30 @@ TEST_F(SqliteCatalogTest, GoesOnWithAStageAfterARestartAndFreesWhatItReplaces) {
   }
 }
 
+TEST_F(SqliteCatalogTest, ForgetsTheChangesOfBeforeItWasOpened) {
+  Fill(2);
+  Close();
+  // More than go at once.
+  Tamper(data_,
+         "WITH RECURSIVE n(i) AS (SELECT 3 UNION ALL SELECT i + 1 FROM n "
+         "WHERE i < 2500) INSERT INTO change_log SELECT 1, i, 's0', 1 FROM n; "
+         "UPDATE collection SET generation = 2500");
+  Open();
+  const CollectionRecord jugs = SampleCollection("jugs");
+  ASSERT_THAT(catalog_->InsertCollection(jugs, {}), IsOk());
+  ASSERT_THAT(catalog_->PutShape(SamplePut(jugs, "new", 1)), IsOk());
+  ASSERT_THAT(catalog_->DeleteShape({"cups", "s1", "", {}}), IsOk());
+  const StopToken stopped({}, absl::UnixEpoch());
+  EXPECT_FALSE(catalog_->ForgetChanges(stopped).ok());
+  EXPECT_EQ(CountRows("change_log"), 2502);
+  ASSERT_THAT(catalog_->ForgetChanges({}), IsOk());
+  EXPECT_EQ(CountRows("change_log"), 2);
+  ASSERT_OK_AND_ASSIGN(const std::vector<ShapeChange> changes,
+                       catalog_->ReadChanges(cups_.uid, 2500, 10));
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].generation, 2501);
+}
+
 TEST_F(SqliteCatalogTest, KeepsOneGraphOfAShapeThatIsReplaced) {
   Fill(1);
   const SettingsStage stage = SampleStage(900);
