@@ -136,10 +136,12 @@ absl::Status DataDirectory::CheckFreeSpace(int64_t extra_bytes) const {
       {{"free_bytes", absl::StrFormat("%d", free_bytes)}});
 }
 
-absl::StatusOr<SpaceClaim> DataDirectory::Claim(int64_t bytes) const {
+absl::StatusOr<SpaceClaim> DataDirectory::Claim(int64_t bytes,
+                                                int64_t reusable_bytes) const {
   // Claimed first: of two at a time, each sees the other.
   SpaceClaim claim(*this, bytes);
-  ARGMESH_RETURN_IF_ERROR(CheckFreeSpace(0));
+  ARGMESH_RETURN_IF_ERROR(
+      CheckFreeSpace(-std::min(reusable_bytes, options_.min_free_bytes / 2)));
   return claim;
 }
 

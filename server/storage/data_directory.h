@@ -72,8 +72,11 @@ class DataDirectory {
   // kResourceExhausted STORE_FULL when `extra_bytes` more, beside all that is
   // claimed, would eat into the space kept free.
   absl::Status CheckFreeSpace(int64_t extra_bytes) const;
-  // As CheckFreeSpace, and keeps them from others.
-  absl::StatusOr<SpaceClaim> Claim(int64_t bytes) const;
+  // As CheckFreeSpace, and keeps them from others. `reusable_bytes` of the
+  // database's file are free: up to half of the space kept free may be eaten
+  // into instead; its write-ahead log needs the other half.
+  absl::StatusOr<SpaceClaim> Claim(int64_t bytes,
+                                   int64_t reusable_bytes = 0) const;
 
   // Whether the last stop was clean.
   bool IsMarkedClean() const;

@@ -49,6 +49,22 @@ SqliteCatalog::SqliteCatalog(std::shared_ptr<DataDirectory> directory,
       writer_(std::move(connection), options.writer),
       readers_(directory_->database_path(), options.max_readers) {}
 
+absl::StatusOr<SpaceClaim> SqliteCatalog::ClaimSpace(int64_t bytes) const {
+  absl::StatusOr<SpaceClaim> space = directory_->Claim(bytes);
+  if (space.ok()) return space;
+  int64_t reusable = 0;
+  ARGMESH_RETURN_IF_ERROR(
+      readers_.Read([&](SqliteConnection& connection) -> absl::Status {
+        ARGMESH_ASSIGN_OR_RETURN(const int64_t pages,
+                                 connection.QueryInt("PRAGMA freelist_count"));
+        ARGMESH_ASSIGN_OR_RETURN(const int64_t page_bytes,
+                                 connection.QueryInt("PRAGMA page_size"));
+        reusable = pages * page_bytes;
+        return absl::OkStatus();
+      }));
+  return directory_->Claim(bytes, reusable);
+}
+
 StoreLoad SqliteCatalog::Load() const {
   const SqliteWriterLoad writer = writer_.Load();
   StoreLoad load;

@@ -103,6 +103,9 @@ class SqliteCatalog : public Catalog {
                 std::unique_ptr<SqliteConnection> connection,
                 const SqliteCatalogOptions& options);
 
+  // For a write of about `bytes` to the database, which may fill its free pages
+  // first.
+  absl::StatusOr<SpaceClaim> ClaimSpace(int64_t bytes) const;
   // Rows of `sql`, which takes the three.
   absl::StatusOr<std::vector<ScannedGraph>> Scan(
       std::string_view sql, std::string_view collection_uid,

@@ -117,7 +117,7 @@ absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
 absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
     const CollectionRecord& record, const RequestStamp& request) {
   ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
-                           directory_->Claim(kCollectionBytes));
+                           ClaimSpace(kCollectionBytes));
   absl::StatusOr<CollectionRecord> inserted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
@@ -130,7 +130,7 @@ absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
 absl::StatusOr<CollectionRecord> SqliteCatalog::UpdateCollection(
     const CollectionPatch& patch) {
   ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
-                           directory_->Claim(kCollectionBytes));
+                           ClaimSpace(kCollectionBytes));
   absl::StatusOr<CollectionRecord> updated;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {

@@ -313,7 +313,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
                            put.descriptors.window_words.size() +
                            put.descriptors.windows.size()) +
       bytes.size() + kRowBytes;
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, directory_->Claim(size));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(size, [&](SqliteConnection& connection) {
@@ -330,7 +330,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
       (patch.metadata
            ? static_cast<int64_t>(SerializeMetadata(*patch.metadata).size())
            : 0);
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, directory_->Claim(size));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(size, [&](SqliteConnection& connection) {

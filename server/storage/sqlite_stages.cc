@@ -139,8 +139,7 @@ absl::StatusOr<std::vector<int64_t>> UnusedGraphs(
 absl::Status SqliteCatalog::BeginStage(std::string_view collection,
                                        std::string_view collection_uid,
                                        const SettingsStage& stage) {
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
-                           directory_->Claim(kRowBytes));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kRowBytes));
   return writer_.Write(
       kRowBytes, [&](SqliteConnection& connection) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(
@@ -156,7 +155,7 @@ absl::Status SqliteCatalog::StageShape(const ShapeStaging& staging) {
   const auto size = static_cast<int64_t>(staging.description.graph.size() +
                                          bytes.labels.size()) +
                     kRowBytes;
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, directory_->Claim(size));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(size));
   return writer_.Write(size, [&](SqliteConnection& connection) {
     return Stage(connection, staging, bytes);
   });
@@ -185,8 +184,7 @@ absl::StatusOr<std::vector<std::string>> SqliteCatalog::ListUnstaged(
 
 absl::StatusOr<std::optional<CollectionRecord>> SqliteCatalog::SwitchSettings(
     const SettingsSwitch& change) {
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space,
-                           directory_->Claim(kRowBytes));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kRowBytes));
   absl::StatusOr<std::optional<CollectionRecord>> switched;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kRowBytes, [&](SqliteConnection& connection) {

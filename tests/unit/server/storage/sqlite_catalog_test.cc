@@ -16,6 +16,7 @@
 #include "server/storage/label_compression.h"
 #include "server/storage/schema.h"
 #include "tests/support/catalog_samples.h"
+#include "tests/support/disk_ballast.h"
 #include "tests/support/status_matchers.h"
 #include "tests/support/temporary_directory.h"
 
@@ -266,6 +267,23 @@ TEST_F(SqliteCatalogTest, RefusesToGrowWhenTheDiskIsLow) {
             ErrorReason::kStoreFull);
   EXPECT_THAT(catalog_->GetShape("cups", "s0"), IsOk());
   EXPECT_THAT(catalog_->DeleteShape({"cups", "s0", "", {}}), IsOk());
+}
+
+TEST_F(SqliteCatalogTest, FillsFreePagesOfTheDatabaseWhenTheDiskIsLow) {
+  Fill(1);
+  Close();
+  Tamper(data_,
+         "CREATE TABLE filler AS SELECT zeroblob(300000000) AS x; "
+         "DROP TABLE filler");
+  // Too little is free by a third of what the file has room for.
+  ASSERT_OK_AND_ASSIGN(
+      std::shared_ptr<DataDirectory> directory,
+      DataDirectory::Open(data_,
+                          {.min_free_bytes = FreeDiskBytes() + 100'000'000,
+                           .allow_network_file_system = true}));
+  ASSERT_OK_AND_ASSIGN(catalog_, SqliteCatalog::Open(directory));
+  EXPECT_EQ(ReasonOf(directory->CheckFreeSpace(0)), ErrorReason::kStoreFull);
+  EXPECT_THAT(catalog_->PutShape(SamplePut(cups_, "s1", 1)), IsOk());
 }
 
 TEST_F(SqliteCatalogTest, GoesOnWithAStageAfterARestartAndFreesWhatItReplaces) {
