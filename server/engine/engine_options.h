@@ -12,7 +12,8 @@ struct EngineOptions {
   ComputePoolOptions pool;
   // Of one mesh, in an ingest or as a query.
   MeshLimits mesh_limits;
-  // Longest parse and abstraction of one mesh; > 0.
+  // Longest computation of one mesh: its parse, which is not stopped, its graph
+  // and what describes its surface; > 0.
   absl::Duration max_compute_time = absl::Seconds(120);
   // How long a request_id is remembered; > 0.
   absl::Duration request_memory = absl::Hours(24);

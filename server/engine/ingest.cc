@@ -234,23 +234,24 @@ absl::StatusOr<Ingest::Described> Ingest::Describe(
   put.graph_version = kShapeGraphVersion;
   put.graph = SerializeShapeGraph(analyzed.computed.graph);
   put.labels = SerializeFaceLabels(analyzed.computed.labels);
-  ARGMESH_ASSIGN_OR_RETURN(SurfaceDescription surface,
-                           DescribeSurface(analyzed.computed.repaired, stop));
-  put.descriptors = std::move(surface.bytes);
+  absl::StatusOr<SurfaceDescription> surface =
+      DescribeSurface(analyzed.computed.repaired, analyzed.within);
+  if (!surface.ok()) return OverComputeTime(surface.status(), stop, options_);
+  put.descriptors = std::move(surface->bytes);
   put.if_exists = shape.if_exists;
   put.etag = shape.etag;
   const auto goal = running_.Goal(collection.uid);
   if (goal && !MakeSameGraphs(*goal, collection.settings)) {
     // One that fails is left to the reindex, which tells why.
     absl::StatusOr<StagedDescription> staged =
-        DescribeWith(*goal, source.bytes, shape.format, stop);
+        DescribeWith(*goal, source.bytes, shape.format, analyzed.within);
     if (staged.ok()) put.staged = *std::move(staged);
   }
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   return Described{
       std::move(put),
       {MatchableGraph(analyzed.computed.graph),
-       PackedSignature(surface.signature), std::move(surface.words)}};
+       PackedSignature(surface->signature), std::move(surface->words)}};
 }
 
 absl::Status Ingest::DescribeAnew(const CollectionRecord& collection,

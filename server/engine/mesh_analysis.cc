@@ -43,21 +43,13 @@ absl::Status ParseError(const absl::Status& status, MeshFormat format) {
   return MakeError(ErrorReason::kMeshMalformed, message, where);
 }
 
-absl::Status ComputeError(const absl::Status& status, const StopToken& stop,
-                          absl::Duration max_compute_time) {
+absl::Status ComputeError(const absl::Status& status) {
   const std::string message(status.message());
   if (absl::IsFailedPrecondition(status)) {
     return MakeError(ErrorReason::kMeshDegenerate, message);
   }
   if (absl::IsResourceExhausted(status)) {
     return MakeError(ErrorReason::kMeshTooLarge, message);
-  }
-  if (absl::IsDeadlineExceeded(status) && stop.Check().ok()) {
-    return MakeError(
-        ErrorReason::kMeshTooLarge,
-        absl::StrFormat("the mesh takes longer than %s to abstract",
-                        absl::FormatDuration(max_compute_time)),
-        {{"limit", absl::FormatDuration(max_compute_time)}});
   }
   return status;
 }
@@ -76,6 +68,15 @@ GraphSummary::Level SummarizeLevel(std::string name, const ArgLevel& level) {
 }
 
 }  // namespace
+
+absl::Status OverComputeTime(const absl::Status& status, const StopToken& stop,
+                             const EngineOptions& options) {
+  if (!absl::IsDeadlineExceeded(status) || !stop.Check().ok()) return status;
+  const std::string limit = absl::FormatDuration(options.max_compute_time);
+  return MakeError(ErrorReason::kMeshTooLarge,
+                   absl::StrFormat("the mesh takes longer than %s", limit),
+                   {{"limit", limit}});
+}
 
 absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits) {
   if (bytes <= 0) {
@@ -102,7 +103,7 @@ absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
   absl::StatusOr<ComputedGraph> computed =
       ComputeShapeGraph(mesh, AbstractionOptionsOf(settings), capped);
   if (computed.ok()) return computed;
-  return ComputeError(computed.status(), stop, options.max_compute_time);
+  return OverComputeTime(ComputeError(computed.status()), stop, options);
 }
 
 absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
@@ -113,14 +114,16 @@ absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
   ARGMESH_RETURN_IF_ERROR(
       CheckMeshSize(static_cast<int64_t>(bytes.size()), options.mesh_limits));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
+  AnalyzedMesh analyzed;
+  analyzed.within = stop.WithDeadline(absl::Now() + options.max_compute_time);
   absl::StatusOr<ParsedMesh> parsed =
       ParseMesh(bytes, format, options.mesh_limits);
   if (!parsed.ok()) return ParseError(parsed.status(), format);
-  AnalyzedMesh analyzed;
   analyzed.format = parsed->format;
-  ARGMESH_ASSIGN_OR_RETURN(
-      analyzed.computed,
-      AnalyzeParsedMesh(parsed->mesh, settings, options, stop));
+  absl::StatusOr<ComputedGraph> computed =
+      AnalyzeParsedMesh(parsed->mesh, settings, options, analyzed.within);
+  if (!computed.ok()) return OverComputeTime(computed.status(), stop, options);
+  analyzed.computed = *std::move(computed);
   analyzed.mesh = std::move(parsed->mesh);
   return analyzed;
 }

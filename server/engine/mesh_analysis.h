@@ -21,6 +21,9 @@ struct AnalyzedMesh {
   TriangleMesh mesh;  // as it came
   ComputedGraph computed;
   MeshFormat format = MeshFormat::kUnknown;
+  // Ends with options.max_compute_time too: for all else that is computed of
+  // this mesh.
+  StopToken within;
 };
 
 // Parses, repairs, abstracts.
@@ -29,6 +32,7 @@ struct AnalyzedMesh {
 //          MESH_FORMAT_UNKNOWN, MESH_EMPTY, MESH_DEGENERATE,
 //          MESH_TOO_LARGE (over a limit, or over options.max_compute_time),
 //          kCancelled, kDeadlineExceeded of `stop`
+// Cost     the time counts from the parse on, which itself is not stopped
 absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
                                          MeshFormat format,
                                          const CollectionSettings& settings,
@@ -39,6 +43,11 @@ absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
 absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
     const TriangleMesh& mesh, const CollectionSettings& settings,
     const EngineOptions& options, const StopToken& stop);
+
+// `status`, or MESH_TOO_LARGE when options.max_compute_time has ended what was
+// computed, and not the caller's `stop`.
+absl::Status OverComputeTime(const absl::Status& status, const StopToken& stop,
+                             const EngineOptions& options);
 
 // MESH_TOO_LARGE from the size alone.
 absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits);

@@ -219,7 +219,7 @@ absl::StatusOr<ResolvedQuery> QueryResolver::Resolve(
     ARGMESH_ASSIGN_OR_RETURN(
         ResolvedQuery query,
         ResolveComputed(std::move(analyzed.mesh), std::move(analyzed.computed),
-                        needs, stop));
+                        needs, analyzed.within));
     query.sha256 = ComputeSha256(mesh->bytes);
     return query;
   }

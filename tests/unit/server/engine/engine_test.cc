@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/time/clock.h"
+#include "server/engine/mesh_analysis.h"
 #include "tests/support/random_graph.h"
 #include "tests/unit/server/engine/engine_bench.h"
 
@@ -121,6 +122,22 @@ TEST_F(EngineTest, GivesUpOnAMeshThatTakesTooLong) {
   Start(options);
   EXPECT_EQ(ReasonOrOk(engine_->AddShape(Named("red"), TorusOff(3))),
             ErrorReason::kMeshTooLarge);
+}
+
+TEST(AnalyzeMesh, LeavesTheRestOfItsTimeToWhatFollows) {
+  EngineOptions options;
+  options.max_compute_time = absl::Seconds(60);
+  const absl::Time before = absl::Now();
+  ASSERT_OK_AND_ASSIGN(
+      const AnalyzedMesh analyzed,
+      AnalyzeMesh(TorusOff(3), MeshFormat::kOff, QuickSettings(), options, {}));
+  EXPECT_LT(analyzed.within.deadline(), absl::Now() + absl::Seconds(60));
+  EXPECT_GE(analyzed.within.deadline(), before + absl::Seconds(60));
+  const absl::Status over = absl::DeadlineExceededError("over");
+  EXPECT_EQ(ReasonOrOk(OverComputeTime(over, {}, options)),
+            ErrorReason::kMeshTooLarge);
+  const StopToken late({}, before);
+  EXPECT_EQ(OverComputeTime(over, late, options), over);
 }
 
 TEST_F(EngineTest, TellsTheCallersDeadlineFromItsOwn) {
