@@ -74,8 +74,13 @@ absl::StatusOr<Response> Client::Parts::Call(
     grpc::ClientContext context;
     Prepare(deadline, context);
     Response response;
-    const absl::Status status = Explain(call(&context, &response));
+    absl::Status status = Explain(call(&context, &response));
     if (status.ok()) return response;
+    // Nobody cancels it here: gRPC says so of a call that comes in while the
+    // server goes down.
+    if (absl::IsCancelled(status) && ErrorReason(status).empty()) {
+      status = absl::UnavailableError("the server at " + target + " goes down");
+    }
     if (repeat == Repeat::kNever) return status;
     const auto wait = backoff.Next(status);
     if (!wait || absl::Now() + *wait >= deadline) return status;
