@@ -57,6 +57,7 @@ in_memory "damaged snapshots" server_storage_test \
 row "full disk" disk_full_test '*'
 row "stop with calls in flight" lifecycle_test \
   '*CallInFlight*:*WhileItDrains:*WhenTheGraceIsOver'
+row "stop under load" stop_test '*'
 row "same answers after restart" kill_test '*.AnswersTheSame*'
 row "kill -9 in an ingest" kill_test '*.LosesNothing*'
 row "hostile peers" hostile_peers_test '*'

@@ -64,7 +64,8 @@ std::string ShapeCaller::CreateCollection() {
              request);
 }
 
-std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
+v1::CreateShapeRequest TorusRequest(const std::string& id,
+                                    double minor_radius) {
   v1::CreateShapeRequest request;
   request.set_parent(kParts);
   request.set_shape_id(id);
@@ -76,7 +77,12 @@ std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
   request.mutable_mesh()->set_data(*SerializeMesh(
       MakeTorus(kMajorRadius, minor_radius, kMajorSegments, kMinorSegments),
       MeshFormat::kOff));
-  return Ask(*shapes_, &v1::ShapeService::Stub::CreateShape, request);
+  return request;
+}
+
+std::string ShapeCaller::AddTorus(const std::string& id, double minor_radius) {
+  return Ask(*shapes_, &v1::ShapeService::Stub::CreateShape,
+             TorusRequest(id, minor_radius));
 }
 
 std::string ShapeCaller::Get(const std::string& id) {

@@ -24,6 +24,9 @@ std::shared_ptr<grpc::Channel> OwnChannel(const std::string& address);
 // Code and message; empty when `status` is OK.
 std::string FailureOf(const grpc::Status& status);
 
+// For a torus whose answers are large, because of its metadata.
+v1::CreateShapeRequest TorusRequest(const std::string& id, double minor_radius);
+
 // A connection of its own.
 class ShapeCaller {
  public:
