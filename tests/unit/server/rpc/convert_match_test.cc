@@ -95,11 +95,11 @@ TEST(ConvertMatch, RanksAGraphByGraphsAlone) {
   EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kGlobal)));
 }
 
-TEST(ConvertMatch, ReranksFusedGlobalSearchesOnly) {
+TEST(ConvertMatch, ReranksFusedSearchesOnly) {
   v1::MatchParameters parameters;
   parameters.set_rerank(true);
   EXPECT_TRUE(Settings(parameters, MatchMode::kGlobal)->rerank);
-  EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kPartial)));
+  EXPECT_TRUE(Settings(parameters, MatchMode::kPartial)->rerank);
   parameters.set_ranking(v1::RANKING_METHOD_GRAPH);
   EXPECT_TRUE(IsFieldInvalid(Settings(parameters, MatchMode::kGlobal)));
 }
@@ -144,6 +144,9 @@ TEST(ConvertMatch, SaysWhereTheQueryLies) {
   EXPECT_EQ(ToProto(found).containment().transform_size(), 0);
   containment.coarse_cover = 0.5;
   containment.transform(1, 3) = 8;
+  containment.other_places.assign(2, containment.transform);
+  containment.other_places[1](0, 3) = 4;
+  containment.flipped = true;
   const v1::Match proto = ToProto(found);
   EXPECT_EQ(proto.handedness(), v1::HANDEDNESS_MIRRORED);
   EXPECT_TRUE(proto.containment().verified());
@@ -152,6 +155,9 @@ TEST(ConvertMatch, SaysWhereTheQueryLies) {
   EXPECT_EQ(proto.containment().surface_score(), 0.75);
   ASSERT_EQ(proto.containment().transform_size(), 16);
   EXPECT_EQ(proto.containment().transform(7), 8);
+  ASSERT_EQ(proto.containment().other_places_size(), 2);
+  EXPECT_EQ(proto.containment().other_places(1).transform(3), 4);
+  EXPECT_TRUE(proto.containment().inside_out());
 }
 
 }  // namespace
