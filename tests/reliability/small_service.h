@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "argmesh/v1/collection_service.grpc.pb.h"
+#include "argmesh/v1/ingest_service.grpc.pb.h"
 #include "argmesh/v1/search_service.grpc.pb.h"
 #include "argmesh/v1/shape_service.grpc.pb.h"
 #include "tests/e2e/installation.h"
@@ -39,11 +40,21 @@ class ShapeCaller {
   std::string Get(const std::string& id);
   std::string List();
   std::string Search(const std::string& id);
+  // By a torus that is not stored.
+  std::string SearchByMesh(v1::SearchMode mode, double minor_radius);
+  std::string StreamSearch(double minor_radius);
+  // AddTorus in pieces, and as an ingest of one item.
+  std::string Upload(const std::string& id, double minor_radius);
+  std::string Ingest(const std::string& id, double minor_radius);
+  // Empty when they failed as they should.
+  std::string GetMissing();
+  std::string AddBroken();
 
  private:
   std::unique_ptr<v1::CollectionService::Stub> collections_;
   std::unique_ptr<v1::ShapeService::Stub> shapes_;
   std::unique_ptr<v1::SearchService::Stub> search_;
+  std::unique_ptr<v1::IngestService::Stub> ingest_;
 };
 
 class SmallService {

@@ -1,5 +1,6 @@
-// Shapes come and go, are read and searched for by several clients at once, as
-// long as one likes: the server's memory does not grow.
+// Shapes come and go by every way there is, are read, and searched for by shape
+// and by mesh, whole and in part, by several clients at once, as long as one
+// likes, beside calls that fail: the server's memory does not grow.
 //
 // ARGMESH_SOAK_SECONDS of it, 10 when not set. The slope counts from 300
 // seconds on: before that, what caches and the allocator keep still grows.
@@ -59,6 +60,18 @@ double MebibytesPerHour(const std::vector<MemorySample>& samples) {
   return square > 0 ? 3600 * both / square : 0;
 }
 
+// Shape "passing", by one of the ways there are.
+std::string Add(ShapeCaller& caller, int way, double minor_radius) {
+  switch (way) {
+    case 0:
+      return caller.AddTorus("passing", minor_radius);
+    case 1:
+      return caller.Upload("passing", minor_radius);
+    default:
+      return caller.Ingest("passing", minor_radius);
+  }
+}
+
 // Each client has a connection of its own and repeats its calls.
 std::vector<std::unique_ptr<Witness>> MixedLoad(const std::string& address) {
   std::vector<std::unique_ptr<Witness>> clients;
@@ -67,9 +80,10 @@ std::vector<std::unique_ptr<Witness>> MixedLoad(const std::string& address) {
         [caller = std::make_shared<ShapeCaller>(address), call,
          round = 0]() mutable { return call(*caller, round++); }));
   };
+  // One adds: on two CPUs one thread computes, and it may wait for no other.
   add([](ShapeCaller& caller, int round) {
     const double minor_radius = 0.3 + 0.05 * (round % 13);
-    const std::string failure = caller.AddTorus("passing", minor_radius);
+    const std::string failure = Add(caller, round % 3, minor_radius);
     return failure.empty() ? caller.Delete("passing") : failure;
   });
   add([](ShapeCaller& caller, int round) {
@@ -79,6 +93,20 @@ std::vector<std::unique_ptr<Witness>> MixedLoad(const std::string& address) {
     return caller.Get("torus-" + std::to_string(round % kShapes));
   });
   add([](ShapeCaller& caller, int) { return caller.List(); });
+  add([](ShapeCaller& caller, int round) {
+    const double minor_radius = 0.3 + 0.05 * (round % 11);
+    switch (round % 3) {
+      case 0:
+        return caller.SearchByMesh(v1::SEARCH_MODE_GLOBAL, minor_radius);
+      case 1:
+        return caller.SearchByMesh(v1::SEARCH_MODE_PARTIAL, minor_radius);
+      default:
+        return caller.StreamSearch(minor_radius);
+    }
+  });
+  add([](ShapeCaller& caller, int round) {
+    return round % 8 == 0 ? caller.AddBroken() : caller.GetMissing();
+  });
   return clients;
 }
 
