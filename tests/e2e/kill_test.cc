@@ -1,15 +1,19 @@
-// A server killed in the middle of an ingest: what was acknowledged is there
-// when it is back, what is there is whole, and the ingest goes on.
+// A server killed while several clients ingest: what was acknowledged is there
+// when it is back, what is there is whole, and the ingests go on.
 //
-// ARGMESH_KILL_ROUNDS rounds, 4 when not set.
+// ARGMESH_KILL_ROUNDS rounds, 4 when not set, of ARGMESH_KILL_CLIENTS clients,
+// 4 when not set.
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <set>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/random.h"
 #include "tests/e2e/installation.h"
@@ -20,9 +24,10 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr int kShapes = 10;
+constexpr int kShapes = 4;  // of one client
 
 uint64_t Rounds() { return EnvironmentNumber("ARGMESH_KILL_ROUNDS", 4); }
+uint64_t Clients() { return EnvironmentNumber("ARGMESH_KILL_CLIENTS", 4); }
 
 // The ids in the lines "stored ID PATH".
 std::set<std::string> Acknowledged(const ChildProcess& ingest) {
@@ -37,6 +42,26 @@ std::set<std::string> Acknowledged(const ChildProcess& ingest) {
     if (words >> verb >> id && verb == "stored" && !lines.eof()) ids.insert(id);
   }
   return ids;
+}
+
+// One client, which fills a collection of its own.
+struct Ingesting {
+  std::string collection;
+  ChildProcess process;
+};
+
+size_t AcknowledgedOf(const std::vector<Ingesting>& clients) {
+  size_t count = 0;
+  for (const Ingesting& client : clients) {
+    count += Acknowledged(client.process).size();
+  }
+  return count;
+}
+
+bool AnyRuns(std::vector<Ingesting>& clients) {
+  return std::any_of(clients.begin(), clients.end(), [](Ingesting& client) {
+    return client.process.Running();
+  });
 }
 
 class KillTest : public testing::Test {
@@ -95,14 +120,34 @@ class KillTest : public testing::Test {
   }
 
   // Kills the server once `count` shapes are acknowledged and `delay` passed.
-  void KillServerAfter(ChildProcess& ingest, size_t count,
+  void KillServerAfter(std::vector<Ingesting>& clients, size_t count,
                        std::chrono::milliseconds delay) {
-    while (ingest.Running() && Acknowledged(ingest).size() < count) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (AnyRuns(clients) && AcknowledgedOf(clients) < count) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     std::this_thread::sleep_for(delay);
     installation_.SignalServer(SIGKILL);
     installation_.WaitForServer();
+  }
+
+  // Of one client, once the server is back.
+  void ExpectNothingLost(Ingesting& client, bool client_survives) {
+    SCOPED_TRACE(client.collection);
+    if (client_survives) {
+      // It comes back by itself and stores the rest.
+      EXPECT_EQ(client.process.Wait(), 0) << client.process.Err();
+      EXPECT_EQ(Stored(client.collection).size(), size_t{kShapes});
+    }
+    const std::set<std::string> stored = Stored(client.collection);
+    for (const std::string& id : Acknowledged(client.process)) {
+      EXPECT_TRUE(stored.contains(id)) << id << " was acknowledged";
+    }
+    ExpectWhole(client.collection, stored);
+    const CommandOutcome again = installation_.Run(
+        {"ingest", "--collection", client.collection, Meshes(), "--json"});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(again.Json()["already_stored"], stored.size());
+    EXPECT_EQ(Stored(client.collection).size(), size_t{kShapes});
   }
 
   Installation installation_;
@@ -114,38 +159,32 @@ TEST_F(KillTest, LosesNothingThatWasAcknowledged) {
   size_t acknowledged_shapes = 0;
   for (uint64_t round = 0; round < Rounds(); ++round) {
     SCOPED_TRACE("round " + std::to_string(round) + ", seed 7");
-    const std::string collection = "round-" + std::to_string(round);
-    const bool client_survives = round % 2 == 1;
-    ChildProcess ingest = StartIngest(collection);
-    KillServerAfter(ingest, random.Below(kShapes),
+    const bool clients_survive = round % 2 == 1;
+    std::vector<Ingesting> clients;
+    for (uint64_t i = 0; i < Clients(); ++i) {
+      const std::string collection =
+          "round-" + std::to_string(round) + "-" + std::to_string(i);
+      clients.push_back({collection, StartIngest(collection)});
+    }
+    KillServerAfter(clients, random.Below(kShapes * Clients()),
                     std::chrono::milliseconds(random.Below(150)));
-    if (!client_survives) {
-      ingest.Signal(SIGKILL);
-      ingest.Wait();
+    for (Ingesting& client : clients) {
+      if (clients_survive) continue;
+      client.process.Signal(SIGKILL);
+      client.process.Wait();
     }
-    const std::set<std::string> acknowledged = Acknowledged(ingest);
-    acknowledged_shapes += acknowledged.size();
+    acknowledged_shapes += AcknowledgedOf(clients);
     ASSERT_TRUE(installation_.StartServer()) << installation_.ServerLog();
-    if (client_survives) {
-      // It comes back by itself and stores the rest.
-      EXPECT_EQ(ingest.Wait(), 0) << ingest.Err();
-      EXPECT_EQ(Stored(collection).size(), static_cast<size_t>(kShapes));
+    for (Ingesting& client : clients) {
+      ExpectNothingLost(client, clients_survive);
     }
-    const std::set<std::string> stored = Stored(collection);
-    for (const std::string& id : acknowledged) {
-      EXPECT_TRUE(stored.contains(id)) << id << " was acknowledged";
-    }
-    ExpectWhole(collection, stored);
-    const CommandOutcome again = installation_.Run(
-        {"ingest", "--collection", collection, Meshes(), "--json"});
-    EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(again.Json()["already_stored"], stored.size());
-    EXPECT_EQ(Stored(collection).size(), static_cast<size_t>(kShapes));
     ASSERT_TRUE(installation_.ServerRuns()) << installation_.ServerLog();
   }
-  std::printf("measured: %s kills, %zu shapes acknowledged before: %s\n",
-              std::to_string(Rounds()).c_str(), acknowledged_shapes,
-              HasFailure() ? "failures" : "0 lost, 0 half there");
+  std::printf(
+      "measured: %s kills under %s clients, %zu shapes acknowledged "
+      "before: %s\n",
+      std::to_string(Rounds()).c_str(), std::to_string(Clients()).c_str(),
+      acknowledged_shapes, HasFailure() ? "failures" : "0 lost, 0 half there");
 }
 
 TEST_F(KillTest, ACallReachesAServerThatComesBackMeanwhile) {
