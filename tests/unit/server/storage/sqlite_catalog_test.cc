@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "absl/time/clock.h"
 #include "core/base/crc32c.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/record_codec.h"
@@ -75,25 +76,30 @@ class SqliteCatalogTest : public ::testing::Test {
     if (!reader.ok()) return -1;
     return (*reader)->QueryInt("SELECT COUNT(*) FROM " + table).value_or(-1);
   }
-  // A database of schema version 3 that has `put` alone.
-  void WriteVersion3(const ShapePut& put) {
+  // A database of an older schema version (1 .. 3) that has `put` alone, and
+  // remembers that its request was answered.
+  void WriteVersion(size_t version, const ShapePut& put) {
     const fs::path path = data_ / "catalog.db";
     ASSERT_OK_AND_ASSIGN(
         const std::unique_ptr<SqliteConnection> connection,
         SqliteConnection::Open(path, SqliteConnection::Mode::kReadWrite));
-    ASSERT_THAT(Migrate(*connection, path, CatalogMigrations().first(3)),
+    ASSERT_THAT(Migrate(*connection, path, CatalogMigrations().first(version)),
                 IsOk());
     const std::string settings = SerializeCollectionSettings(cups_.settings);
     const std::string details = SerializeShapeDetails(put.record);
     ASSERT_OK_AND_ASSIGN(const std::string labels, CompressLabels(put.labels));
+    const std::string answer =
+        SerializeShapeWritten({put.record, cups_.uid, true, {}});
     const auto run = [&](const char* sql, const auto&... values) {
-      ASSERT_THAT(connection->Run(sql, values...), IsOk()) << sql;
+      EXPECT_THAT(connection->Run(sql, values...), IsOk()) << sql;
     };
-    run("INSERT INTO collection VALUES (5, 'cups', ?, '', ?, ?, 1, 1, 1, 1, 1, "
-        "x'')",
+    run("INSERT INTO collection (id, name, uid, display_name, settings, "
+        "graph_version, generation, shape_count, create_us, update_us) VALUES "
+        "(5, 'cups', ?, '', ?, ?, 1, 1, 1, 1)",
         cups_.uid, SqliteBlob(settings), cups_.graph_version);
-    run("INSERT INTO shape VALUES (17, 5, 'red', 'uid', 3, '', ?, 10, 3, NULL, "
-        "'', '', '{}', ?, 1, 1, 1)",
+    run("INSERT INTO mesh VALUES (?, 10, 1)", SqliteBlob(put.record.sha256));
+    run("INSERT INTO shape VALUES (17, 5, 'red', 'uid', 3, '', ?1, 10, 3, ?1, "
+        "'', '', '{}', ?2, 1, 1, 1)",
         SqliteBlob(put.record.sha256), SqliteBlob(details));
     run("INSERT INTO graph VALUES (17, ?, ?, ?)", put.graph_version,
         SqliteBlob(put.graph), ComputeCrc32c(put.graph));
@@ -101,6 +107,34 @@ class SqliteCatalogTest : public ::testing::Test {
         static_cast<int64_t>(put.labels.size()), SqliteBlob(labels),
         ComputeCrc32c(labels));
     run("INSERT INTO change_log VALUES (5, 1, 'red', 1)");
+    run("INSERT INTO request_dedup VALUES (?, ?, ?, ?, ?, ?)",
+        put.request.principal, put.request.request_id, put.request.method,
+        SqliteBlob(put.request.hash), SqliteBlob(answer),
+        absl::ToUnixMicros(absl::Now() + absl::Hours(1)));
+    if (version >= 2) WriteSurface(*connection, put.descriptors);
+    if (version >= 3) WriteMetadata(*connection);
+  }
+  // What came with version 2, and with version 3.
+  static void WriteSurface(SqliteConnection& connection,
+                           const SurfaceDescriptors& surface) {
+    const auto run = [&](const char* sql, const auto&... values) {
+      EXPECT_THAT(connection.Run(sql, values...), IsOk()) << sql;
+    };
+    run("INSERT INTO signature VALUES (17, ?, ?)",
+        SqliteBlob(surface.signature), ComputeCrc32c(surface.signature));
+    run("INSERT INTO surface_windows VALUES (17, ?, ?, ?, ?)",
+        SqliteBlob(surface.window_words), ComputeCrc32c(surface.window_words),
+        SqliteBlob(surface.windows), ComputeCrc32c(surface.windows));
+  }
+  static void WriteMetadata(SqliteConnection& connection) {
+    const auto run = [&](const char* sql, const auto&... values) {
+      EXPECT_THAT(connection.Run(sql, values...), IsOk()) << sql;
+    };
+    const std::string keys =
+        SerializeMetadataKeys({{"colour", MetadataType::kString}});
+    run("UPDATE collection SET metadata_keys = ?", SqliteBlob(keys));
+    run("UPDATE shape SET metadata = '{\"colour\":\"red\"}'");
+    run("INSERT INTO metadata_value VALUES (5, 'colour', 'red', 17)");
   }
 
   TemporaryDirectory folder_;
@@ -363,18 +397,46 @@ TEST_F(SqliteCatalogTest, KeepsOneGraphOfAShapeThatIsReplaced) {
   EXPECT_EQ(CountRows("face_label"), 2);
 }
 
-TEST_F(SqliteCatalogTest, BringsAStoreOfVersionThreeUpToDate) {
+class OlderCatalogTest : public SqliteCatalogTest,
+                         public ::testing::WithParamInterface<size_t> {};
+
+INSTANTIATE_TEST_SUITE_P(Versions, OlderCatalogTest, ::testing::Values(1, 2, 3),
+                         ::testing::PrintToStringParamName());
+
+TEST_P(OlderCatalogTest, IsBroughtUpToDateWithAllThatItHas) {
+  const size_t version = GetParam();
   ASSERT_TRUE(fs::create_directories(data_));
   cups_ = SampleCollection("cups");
-  const ShapePut put = SamplePut(cups_, "red", 1);
-  ASSERT_NO_FATAL_FAILURE(WriteVersion3(put));
+  ShapePut put = SamplePut(cups_, "red", 1);
+  put.request = SampleRequest('7', "CreateShape", "red");
+  ASSERT_NO_FATAL_FAILURE(WriteVersion(version, put));
   Open();
-  EXPECT_TRUE(fs::exists(data_ / "catalog.db.version-3"));
+  EXPECT_TRUE(
+      fs::exists(data_ / ("catalog.db.version-" + std::to_string(version))));
   ASSERT_OK_AND_ASSIGN(const StoredGraph red,
                        catalog_->ReadGraph("cups", "red", true));
   EXPECT_EQ(red.graph, put.graph);
   EXPECT_EQ(red.labels, put.labels);
   EXPECT_EQ(red.settings, cups_.settings);
+  EXPECT_TRUE(red.record.mesh_stored);
+  EXPECT_TRUE(catalog_->IsMeshReferenced(put.record.sha256).value());
+  ASSERT_OK_AND_ASSIGN(const std::vector<ScannedGraph> scanned,
+                       catalog_->ScanGraphs(cups_.uid, "", 10));
+  ASSERT_EQ(scanned.size(), 1U);
+  const bool described = version >= 2;
+  EXPECT_EQ(scanned[0].signature, described ? put.descriptors.signature : "");
+  EXPECT_EQ(catalog_->ReadWindows(cups_.uid, "red").value(),
+            described ? put.descriptors.windows : "");
+  if (version >= 3) {
+    EXPECT_EQ(catalog_->ListShapes("cups", {"", 10, "colour = \"red\""})
+                  .value()
+                  .size(),
+              1U);
+  }
+  ASSERT_OK_AND_ASSIGN(const std::optional<ShapeWritten> answered,
+                       catalog_->FindPutShape(put.request));
+  ASSERT_TRUE(answered.has_value());
+  EXPECT_EQ(answered->record.id, "red");
   ASSERT_OK_AND_ASSIGN(const std::vector<ShapeChange> changes,
                        catalog_->ReadChanges(cups_.uid, 0, 10));
   ASSERT_EQ(changes.size(), 1U);
