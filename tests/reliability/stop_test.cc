@@ -87,7 +87,7 @@ std::vector<std::unique_ptr<Witness>> IdempotentLoad(
   add([](Client& client, int round) {
     const std::string id = "added-" + std::to_string(round);
     v1::CreateShapeRequest create = TorusRequest(id, 0.5);
-    const std::string failure = FailureOf(client.CreateShape(create));
+    std::string failure = FailureOf(client.CreateShape(create));
     if (!failure.empty()) return failure;
     v1::DeleteShapeRequest remove;
     remove.set_name(ShapeNamed(id));
