@@ -67,10 +67,11 @@ class GuardedReactor
   }
 
   void OnDone() final {
+    // First: no tick may add it to a budget that it has been removed from.
+    environment().calls.Leave(this);
     environment().answers.Remove(this);
     environment().requests.Remove(this);
     environment().connections.Leave(scope_.peer());
-    environment().calls.Leave(this);
     self_.reset();  // may delete this
   }
 
