@@ -95,7 +95,7 @@ class ComputePool::State {
   };
 
   Lane& lane(WorkClass c) const { return *lanes_[static_cast<size_t>(c)]; }
-  void Start(Lane& lane, Work work);  // a thread is reserved
+  void Start(Lane& lane, Work work);  // locked; a thread is reserved
   void Serve(Lane& lane);             // takes what waits, frees the thread
   void ArmTimer(Lane& lane);          // locked
   void RefuseLate(Lane& lane);
@@ -131,6 +131,8 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
     } else if (lane.load.running < lane.load.threads && lane.queue.empty()) {
       ++lane.load.running;
       ++lane.load.admitted;
+      Start(lane, std::move(work));
+      return;
     } else if (static_cast<int>(lane.queue.size()) >= lane.max_queued) {
       refusal = Refusal("too many calls wait already", max_wait_);
     } else {
@@ -143,15 +145,13 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
       ArmTimer(lane);
       return;
     }
-    if (!refusal.ok()) ++lane.load.refused;
+    ++lane.load.refused;
   }
-  if (refusal.ok()) {
-    Start(lane, std::move(work));
-  } else {
-    work(std::move(refusal));
-  }
+  work(std::move(refusal));
 }
 
+// Locked, so that Close finds the thread reserved and its work posted, or
+// neither: what is posted to a pool that has been joined never runs.
 void ComputePool::State::Start(Lane& lane, Work work) {
   asio::post(lane.pool, [this, &lane, work = std::move(work)] {
     if (lane.work_class == WorkClass::kCompute) LowerPriorityOnce();
@@ -245,12 +245,12 @@ void ComputePool::State::ParallelFor(WorkClass work_class, int64_t count,
       helpers = std::max(helpers, 0);
       lane.load.running += helpers;
     }
-  }
-  for (int h = 0; h < helpers; ++h) {
-    asio::post(lane.pool, [this, &lane, loop] {
-      Help(lane, *loop);
-      Serve(lane);
-    });
+    for (int h = 0; h < helpers; ++h) {
+      asio::post(lane.pool, [this, &lane, loop] {
+        Help(lane, *loop);
+        Serve(lane);
+      });
+    }
   }
   for (int64_t i = loop->next++; i < count; i = loop->next++) body(i);
   std::unique_lock lock(loop->mutex);

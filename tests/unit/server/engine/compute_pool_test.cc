@@ -158,5 +158,35 @@ TEST(ComputePool, RefusesEverythingOnceItIsClosed) {
   EXPECT_EQ(visits, 10);
 }
 
+TEST(ComputePool, CallsWhatIsSubmittedWhileItCloses) {
+  constexpr int kPools = 200;
+  std::atomic<int64_t> submitted{0};
+  std::atomic<int64_t> called{0};
+  for (int i = 0; i < kPools; ++i) {
+    ComputePool pool(Threads(1, 1000));
+    std::atomic<bool> closed{false};
+    std::vector<std::thread> submitting;
+    for (int n = 0; n < 8; ++n) {
+      submitting.emplace_back([&] {
+        while (!closed) {
+          ++submitted;
+          pool.Submit(WorkClass::kQuick, absl::InfiniteFuture(),
+                      [&](const absl::Status& status) {
+                        ++called;
+                        if (ReasonOf(status) == ErrorReason::kDraining) {
+                          closed = true;
+                        }
+                      });
+        }
+      });
+    }
+    const int64_t before = called;
+    while (called < before + 100) std::this_thread::yield();
+    pool.Close();
+    for (std::thread& thread : submitting) thread.join();
+  }
+  EXPECT_EQ(called, submitted);
+}
+
 }  // namespace
 }  // namespace argmesh
