@@ -11,9 +11,8 @@ const prometheus::Histogram::BucketBoundaries kSeconds = {
     0.5,    1,     2.5,    5,     10,   30,    60,   300, 3600};
 
 prometheus::Labels LabelsOf(std::string_view method) {
-  const size_t dot = method.find('.');
-  return {{"grpc_service", "argmesh.v1." + std::string(method.substr(0, dot))},
-          {"grpc_method", std::string(method.substr(dot + 1))}};
+  const MethodName name = FullName(method);
+  return {{"grpc_service", name.service}, {"grpc_method", name.method}};
 }
 
 }  // namespace

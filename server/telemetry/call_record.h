@@ -11,6 +11,15 @@
 
 namespace argmesh {
 
+// As gRPC names it, with its package.
+struct MethodName {
+  std::string service;  // "argmesh.v1.ShapeService"
+  std::string method;   // "GetShape"
+};
+
+// Of "ShapeService.GetShape".
+MethodName FullName(std::string_view method);
+
 struct CallRecord {
   // "ShapeService.GetShape"; outlives the record.
   std::string_view method;

@@ -41,17 +41,15 @@ Json Span(const std::string& trace, const std::string& id,
 
 Json ServerSpan(const CallRecord& record, const std::string& trace,
                 const std::string& id) {
-  const size_t dot = record.method.find('.');
-  const std::string service(record.method.substr(0, dot));
-  const std::string method(record.method.substr(dot + 1));
+  const MethodName name = FullName(record.method);
   Json span = Span(trace, id, record.trace.parent_id,
-                   absl::StrCat("argmesh.v1.", service, "/", method),
-                   record.begin, record.end);
+                   absl::StrCat(name.service, "/", name.method), record.begin,
+                   record.end);
   span["kind"] = kSpanKindServer;
   span["attributes"] = {
       Attribute("rpc.system", "grpc"),
-      Attribute("rpc.service", absl::StrCat("argmesh.v1.", service)),
-      Attribute("rpc.method", method),
+      Attribute("rpc.service", name.service),
+      Attribute("rpc.method", name.method),
       IntAttribute("rpc.grpc.status_code", static_cast<int>(record.code)),
       Attribute("network.peer.address", record.peer),
   };

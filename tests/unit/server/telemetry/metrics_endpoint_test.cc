@@ -86,6 +86,15 @@ TEST(MetricsEndpoint, CountsCallsByMethodAndCode) {
   EXPECT_THAT(text, HasSubstr("{reason=\"MESH_EMPTY\"} 1"));
 }
 
+TEST(MetricsEndpoint, NamesOperationsByTheirOwnPackage) {
+  CallMetrics calls;
+  calls.Started("Operations.ListOperations");
+  auto endpoint = MetricsEndpoint::Start("127.0.0.1:0", calls, {});
+  ASSERT_TRUE(endpoint.ok()) << endpoint.status();
+  EXPECT_THAT(Get((*endpoint)->port(), "/metrics"),
+              HasSubstr("grpc_service=\"google.longrunning.Operations\"} 1"));
+}
+
 TEST(MetricsEndpoint, ReadsGaugesWhenItIsAsked) {
   const CallMetrics calls;
   double depth = 3;

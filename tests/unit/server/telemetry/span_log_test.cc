@@ -44,6 +44,15 @@ TEST(SpanLine, ContinuesTheTraceOfTheCaller) {
   }
 }
 
+TEST(SpanLine, NamesAServiceByItsOwnPackage) {
+  CallRecord record = Record();
+  record.method = "Operations.GetOperation";
+  const Json spans = SpansOf(record);
+  EXPECT_EQ(spans[0]["name"], "google.longrunning.Operations/GetOperation");
+  EXPECT_EQ(spans[0]["attributes"][1]["value"]["stringValue"],
+            "google.longrunning.Operations");
+}
+
 TEST(SpanLine, SplitsACallIntoQueueAndWork) {
   const Json spans = SpansOf(Record());
   EXPECT_EQ(spans[1]["name"], "queue");
