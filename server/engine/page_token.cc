@@ -9,6 +9,7 @@
 #include "core/base/identifier.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
+#include "server/engine/uid.h"
 
 namespace argmesh {
 namespace {
@@ -29,7 +30,7 @@ absl::StatusOr<std::string> ReadToken(std::string_view list,
   ARGMESH_ASSIGN_OR_RETURN(const std::string_view id,
                            reader.ReadBytes(reader.remaining()));
   if (version != kTokenVersion || checksum != Checksum(list, id) ||
-      !IsIdentifier(id)) {
+      !(IsIdentifier(id) || IsUid(id))) {
     return absl::DataLossError("not a page token of this list");
   }
   return std::string(id);

@@ -2,6 +2,7 @@
 
 #include "server/rpc/convert_collection.h"
 #include "server/rpc/resource_name.h"
+#include "server/rpc/service_environment.h"
 #include "server/rpc/status.h"
 
 namespace argmesh {
@@ -12,6 +13,7 @@ v1::ReindexCollectionResponse ReindexAnswer(const ReindexReport& report) {
   out.set_failed(report.run.failed);
   *out.mutable_collection() = ToProto(report.collection);
   for (const ItemFailure& failure : report.run.failures) {
+    if (out.ByteSizeLong() > kMaxAnswerBytes) break;
     v1::ReindexFailure& added = *out.add_failures();
     added.set_shape(ShapeName(report.collection.id, failure.item));
     *added.mutable_error() = ToProtoStatus(failure.status);
@@ -25,6 +27,7 @@ v1::ImportShapesResponse ImportAnswer(const RunReport& report) {
   out.set_already_stored(report.were_done);
   out.set_failed(report.failed);
   for (const ItemFailure& failure : report.failures) {
+    if (out.ByteSizeLong() > kMaxAnswerBytes) break;
     v1::ImportFailure& added = *out.add_failures();
     added.set_path(failure.item);
     *added.mutable_error() = ToProtoStatus(failure.status);

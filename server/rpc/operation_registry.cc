@@ -172,16 +172,23 @@ absl::Status OperationRegistry::Delete(std::string_view id) {
   return absl::OkStatus();
 }
 
-std::vector<Operation> OperationRegistry::List(std::string_view after_id,
-                                               int limit) const {
+OperationRegistry::Page OperationRegistry::List(std::string_view after_id,
+                                                int limit,
+                                                int64_t max_bytes) const {
   const std::lock_guard lock(mutex_);
-  std::vector<Operation> operations;
-  for (auto it = entries_.upper_bound(after_id);
-       it != entries_.end() && static_cast<int>(operations.size()) < limit;
-       ++it) {
-    operations.push_back(it->second->operation);
+  Page page;
+  int64_t bytes = 0;
+  for (auto it = entries_.upper_bound(after_id); it != entries_.end(); ++it) {
+    const Operation& operation = it->second->operation;
+    const auto count = static_cast<int>(page.operations.size());
+    bytes += static_cast<int64_t>(operation.ByteSizeLong());
+    if (count == limit || (count > 0 && bytes > max_bytes)) {
+      page.more = true;
+      break;
+    }
+    page.operations.push_back(operation);
   }
-  return operations;
+  return page;
 }
 
 int OperationRegistry::running() const {

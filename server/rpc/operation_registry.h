@@ -51,9 +51,13 @@ class OperationRegistry {
   absl::Status Cancel(std::string_view id);
   // Forgets it; it runs on.
   absl::Status Delete(std::string_view id);
-  // At most `limit` after `after_id`, by UUID.
-  std::vector<google::longrunning::Operation> List(std::string_view after_id,
-                                                   int limit) const;
+  // Those after `after_id`, by UUID: at most `limit` >= 1, and no more than fit
+  // in `max_bytes`, but one.
+  struct Page {
+    std::vector<google::longrunning::Operation> operations;
+    bool more = false;  // there are others after them
+  };
+  Page List(std::string_view after_id, int limit, int64_t max_bytes) const;
 
   void CancelAll();
   // CancelAll, and waits until none runs.

@@ -23,13 +23,15 @@ absl::Status ListOperations(
   ARGMESH_ASSIGN_OR_RETURN(const int limit, CheckPageSize(request.page_size()));
   ARGMESH_ASSIGN_OR_RETURN(const std::string after,
                            ParsePageToken(kList, request.page_token()));
-  for (Operation& operation : call.environment.operations.List(after, limit)) {
+  OperationRegistry::Page page =
+      call.environment.operations.List(after, limit, kMaxAnswerBytes);
+  for (Operation& operation : page.operations) {
     *response->add_operations() = std::move(operation);
   }
-  if (response->operations_size() == limit) {
+  if (page.more) {
     ARGMESH_ASSIGN_OR_RETURN(
         const std::string last,
-        ParseOperationName("name", response->operations(limit - 1).name()));
+        ParseOperationName("name", response->operations().rbegin()->name()));
     response->set_next_page_token(MakePageToken(kList, last));
   }
   return absl::OkStatus();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -180,6 +181,31 @@ TEST_F(AdminServiceTest, KeepsOperationsUntilTheyAreDeleted) {
   request.set_name(operation.name());
   EXPECT_FAILS(server_.operations().GetOperation(&context, request, &operation),
                NOT_FOUND, "OPERATION_NOT_FOUND");
+}
+
+TEST_F(AdminServiceTest, ListsOperationsPageByPage) {
+  std::set<std::string> started;
+  for (const char* id : {"one", "two", "three"}) {
+    Operation operation;
+    ASSERT_CALL_OK(StartSnapshot(id, &operation));
+    started.insert(Wait(operation.name()).name());
+  }
+  std::set<std::string> listed;
+  google::longrunning::ListOperationsRequest request;
+  request.set_page_size(2);
+  for (const int expected : {2, 1}) {
+    grpc::ClientContext context;
+    google::longrunning::ListOperationsResponse page;
+    ASSERT_CALL_OK(
+        server_.operations().ListOperations(&context, request, &page));
+    EXPECT_EQ(page.operations_size(), expected);
+    for (const Operation& operation : page.operations()) {
+      listed.insert(operation.name());
+    }
+    request.set_page_token(page.next_page_token());
+  }
+  EXPECT_EQ(request.page_token(), "");
+  EXPECT_EQ(listed, started);
 }
 
 TEST_F(AdminServiceTest, KnowsNoOperationThatWasNotStarted) {
