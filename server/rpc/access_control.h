@@ -5,7 +5,7 @@
 // the client's, where TLS asks for one, only names them.
 //
 // Thread-safe; the keys may be replaced at any time and count from the next
-// call on.
+// call on, and from the next message of those under way.
 #ifndef ARGMESH_SERVER_RPC_ACCESS_CONTROL_H_
 #define ARGMESH_SERVER_RPC_ACCESS_CONTROL_H_
 

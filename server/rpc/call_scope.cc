@@ -79,11 +79,15 @@ absl::Status CallScope::Authorize() {
 
 absl::Status CallScope::AuthorizeMessage(
     const google::protobuf::Message& message) {
-  const std::vector<std::string> names = RequestNames(message);
-  if (names.empty() && named_) return absl::OkStatus();
+  // As the keys are now: one may have been revoked, or have expired, since.
+  ARGMESH_ASSIGN_OR_RETURN(caller_,
+                           environment_.access.Authenticate(*context_));
+  ARGMESH_RETURN_IF_ERROR(CheckRole(caller_, record_.method));
+  std::vector<std::string> names = RequestNames(message);
+  const bool named = !record_.resource.empty();
+  if (named && names.empty()) names.push_back(record_.resource);
   ARGMESH_RETURN_IF_ERROR(CheckNames(caller_, record_.method, names));
-  if (!named_ && !names.empty()) {
-    named_ = true;
+  if (!named && !names.empty()) {
     const std::lock_guard lock(mutex_);
     record_.resource = Utf8Prefix(names.front(), kMaxLoggedName);
   }

@@ -48,9 +48,10 @@ class CallScope {
   // Whether the caller may make this call, and no more than its key allows.
   // Once, before anything else of the call is done.
   absl::Status Authorize();
-  // The same for a message of the call. Only the first has to name a
-  // collection.
+  // Whether the caller still may, and may what this message names. One that
+  // names nothing is of the resource that was named first.
   absl::Status AuthorizeMessage(const google::protobuf::Message& message);
+  // As of the last of these checks; not while the next is under way.
   const Caller& caller() const { return caller_; }
 
   // Gives back the caller's place among the calls of its key.
@@ -75,7 +76,6 @@ class CallScope {
   grpc::CallbackServerContext* context_;
   Caller caller_;
   KeyQuotas::Ticket quota_;  // with mutex_
-  bool named_ = false;       // a message of the call has named a resource
   CallRecord record_;        // with mutex_ once the call has begun
   std::stop_source stop_source_;
   StopToken stop_;
