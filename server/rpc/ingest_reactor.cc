@@ -72,11 +72,6 @@ void IngestReactor::Step(v1::IngestShapesRequest& request) {
 absl::Status IngestReactor::Hello(const v1::IngestHello& hello) {
   ARGMESH_RETURN_IF_ERROR(OpenCollection(hello));
   const ServiceLimits& limits = environment().limits;
-  {
-    const std::lock_guard lock(scope().mutex());
-    credit_items_ = limits.ingest_credit_items;
-    credit_bytes_ = limits.ingest_credit_bytes;
-  }
   Send(CreditOf(limits.ingest_credit_items, limits.ingest_credit_bytes));
   return absl::OkStatus();
 }
@@ -255,8 +250,6 @@ void IngestReactor::SendResult(const Item& item,
   {
     const std::lock_guard lock(scope().mutex());
     --open_items_;
-    ++credit_items_;
-    credit_bytes_ += item.credit_bytes;
     outbox_.push_back(std::move(message));
     if (!reads_ended_ && !draining_) {
       outbox_.push_back(CreditOf(1, item.credit_bytes));
@@ -278,6 +271,12 @@ void IngestReactor::StartNextWrite() {
   if (scope().finished() || outbox_.empty() || writing_.pending()) return;
   message_ = std::move(outbox_.front());
   outbox_.pop_front();
+  if (message_.has_credit()) {
+    // Not before: what the client does not take it gets no credit for, and the
+    // outbox holds no more than the credit allows.
+    credit_items_ += message_.credit().items();
+    credit_bytes_ += message_.credit().bytes();
+  }
   writing_.Begin();
   StartWrite(&message_);
 }

@@ -2,8 +2,9 @@
 //
 // The client is read one message at a time; an item's chunks go straight to
 // the disk, and complete items are computed side by side on the engine's pool.
-// Credit bounds what is under way, so that neither side stalls the other and
-// memory does not depend on the number of items. A bad item gives an error
+// Credit bounds what is under way, results that the client has not taken
+// included, so that neither side stalls the other and memory does not depend on
+// the number of items. A bad item gives an error
 // result; only a breach of the protocol ends the stream, after the results of
 // what was begun before.
 #ifndef ARGMESH_SERVER_RPC_INGEST_REACTOR_H_
@@ -76,8 +77,8 @@ class IngestReactor final
   // All below with the scope's mutex.
   std::deque<ItemPtr> ready_;
   int computing_ = 0;
-  int open_items_ = 0;  // begun, without a result
-  int64_t credit_items_ = 0;
+  int open_items_ = 0;        // begun, without a result
+  int64_t credit_items_ = 0;  // that has been sent and not used
   int64_t credit_bytes_ = 0;
   bool draining_ = false;
   bool reads_ended_ = false;

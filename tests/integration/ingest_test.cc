@@ -19,8 +19,9 @@ using Stream =
 // A client that sends, and files what comes back.
 class IngestStream {
  public:
-  explicit IngestStream(TestServer& server)
-      : stream_(server.ingest().IngestShapes(&context_)) {}
+  explicit IngestStream(TestServer& server) : IngestStream(server.ingest()) {}
+  explicit IngestStream(v1::IngestService::Stub& ingest)
+      : stream_(ingest.IngestShapes(&context_)) {}
 
   bool Hello(const std::string& collection, bool create_if_absent = false) {
     v1::IngestShapesRequest request;
@@ -276,6 +277,22 @@ TEST_F(IngestTest, EndsAStreamThatSendsMoreThanItsCredit) {
   EXPECT_FAILS(stream.Finish(), RESOURCE_EXHAUSTED, "CREDIT_EXCEEDED");
   EXPECT_TRUE(stream.results["large"].has_shape());
   EXPECT_FALSE(stream.results.contains("next"));
+}
+
+TEST_F(IngestTest, GivesNoCreditBackForResultsThatAreNotTaken) {
+  // Without a socket a message is sent when the client reads it.
+  const auto stub =
+      v1::IngestService::NewStub(server_.rpc().InProcessChannel());
+  IngestStream stream(*stub);
+  ASSERT_TRUE(stream.Hello("collections/c"));
+  const int credit = Options().rpc.limits.ingest_credit_items;
+  v1::IngestItem refused;
+  refused.set_key("refused");
+  int taken = 0;
+  while (taken < 10 * credit && stream.Send(refused)) ++taken;
+  // The first beyond the credit is the last that is read.
+  EXPECT_LE(taken, credit + 2);
+  EXPECT_EQ(stream.Finish().error_code(), grpc::StatusCode::CANCELLED);
 }
 
 TEST_F(IngestTest, RefusesMessagesOutOfOrderAfterTheResultsOfWhatCameBefore) {
