@@ -153,9 +153,10 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
 // Locked, so that Close finds the thread reserved and its work posted, or
 // neither: what is posted to a pool that has been joined never runs.
 void ComputePool::State::Start(Lane& lane, Work work) {
-  asio::post(lane.pool, [this, &lane, work = std::move(work)] {
+  asio::post(lane.pool, [this, &lane, work = std::move(work)]() mutable {
     if (lane.work_class == WorkClass::kCompute) LowerPriorityOnce();
-    work(absl::OkStatus());
+    // Gone, with what it holds, before the thread takes what waits.
+    std::exchange(work, nullptr)(absl::OkStatus());
     Serve(lane);
   });
 }

@@ -12,8 +12,9 @@ DownloadReactor::DownloadReactor(ServiceEnvironment& environment,
                                  grpc::CallbackServerContext* context)
     : WritingReactor(environment, context, "ShapeService.DownloadMesh") {}
 
-void DownloadReactor::Requested(const v1::DownloadMeshRequest& request) {
-  name_ = request.name();
+void DownloadReactor::Requested(
+    std::shared_ptr<const v1::DownloadMeshRequest> request) {
+  name_ = request->name();
   Run(WorkClass::kQuick, [this] { SendNext(); });
 }
 

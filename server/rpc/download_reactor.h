@@ -22,7 +22,8 @@ class DownloadReactor final
                   grpc::CallbackServerContext* context);
 
  protected:
-  void Requested(const v1::DownloadMeshRequest& request) override;
+  void Requested(
+      std::shared_ptr<const v1::DownloadMeshRequest> request) override;
   absl::StatusOr<bool> Continue(v1::DownloadMeshResponse& next) override;
 
  private:

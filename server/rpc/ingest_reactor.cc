@@ -45,8 +45,8 @@ void IngestReactor::Begin() {
 
 // --- reading -----------------------------------------------------------------
 
-void IngestReactor::Received(v1::IngestShapesRequest& request) {
-  RunPatiently(WorkClass::kQuick, [this, &request] { Step(request); });
+void IngestReactor::Received(std::shared_ptr<v1::IngestShapesRequest> request) {
+  RunPatiently(WorkClass::kQuick, [this, request] { Step(*request); });
 }
 
 void IngestReactor::Step(v1::IngestShapesRequest& request) {

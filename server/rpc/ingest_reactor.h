@@ -33,7 +33,7 @@ class IngestReactor final
 
  protected:
   void Begin() override;
-  void Received(v1::IngestShapesRequest& request) override;
+  void Received(std::shared_ptr<v1::IngestShapesRequest> request) override;
   void ReadsEnded() override;
 
  private:

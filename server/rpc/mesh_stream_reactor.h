@@ -49,18 +49,18 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
     if (this->AdmitTo(plan_.admission)) this->StartNextRead();
   }
 
-  void Received(Request& request) final {
-    const bool expected = request.has_header()  ? upload_ == nullptr
-                          : request.has_chunk() ? upload_ != nullptr
-                                                : false;
+  void Received(std::shared_ptr<Request> request) final {
+    const bool expected = request->has_header()  ? upload_ == nullptr
+                          : request->has_chunk() ? upload_ != nullptr
+                                                 : false;
     if (!expected) {
       this->FinishOnce(StreamOrderInvalid("a mesh is one header, then chunks"));
       return;
     }
-    this->RunPatiently(WorkClass::kQuick, [this, &request] {
-      const absl::Status taken = request.has_header()
-                                     ? StartUpload(request)
-                                     : upload_->Append(request.chunk());
+    this->RunPatiently(WorkClass::kQuick, [this, request] {
+      const absl::Status taken = request->has_header()
+                                     ? StartUpload(*request)
+                                     : upload_->Append(request->chunk());
       if (taken.ok()) {
         this->StartNextRead();
       } else {

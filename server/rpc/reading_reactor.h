@@ -1,6 +1,9 @@
 // The base of reactors that read a stream: one message after the other, and
 // it is noticed when none comes. The caller's rights are checked for every
 // message.
+//
+// The call does not keep what it has read: a message goes with whoever holds it
+// last, so that a peer who does not take its answer keeps no request either.
 #ifndef ARGMESH_SERVER_RPC_READING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_READING_REACTOR_H_
 
@@ -19,31 +22,30 @@ namespace argmesh {
 template <typename Base, typename Request>
 class ReadingReactor : public GuardedReactor<Base> {
  public:
-  // Messages are read into `message`.
+  // Messages are of the type of `empty`, which must outlive the call.
   ReadingReactor(ServiceEnvironment& environment,
                  grpc::CallbackServerContext* context, const char* method,
-                 std::unique_ptr<Request> message = std::make_unique<Request>())
-      : GuardedReactor<Base>(environment, context, method),
-        message_(std::move(message)) {}
+                 const Request& empty = Request::default_instance())
+      : GuardedReactor<Base>(environment, context, method), empty_(empty) {}
 
   void OnReadDone(bool ok) final {
     reading_.End();
     this->Guard([&] {
+      std::shared_ptr<Request> message = std::move(message_);
       if (!ok) {
         ReadsEnded();
-      } else if (absl::Status status =
-                     this->scope().AuthorizeMessage(*message_);
+      } else if (absl::Status status = this->scope().AuthorizeMessage(*message);
                  !status.ok()) {
         this->FinishOnce(status);
       } else {
-        Received(*message_);
+        Received(std::move(message));
       }
     });
   }
 
  protected:
-  // A message; it stays until the next StartNextRead.
-  virtual void Received(Request& request) = 0;
+  // A message has come. Once for each StartNextRead.
+  virtual void Received(std::shared_ptr<Request> request) = 0;
   // The client half-closed, went away, or sent what cannot be parsed: gRPC
   // does not say which.
   virtual void ReadsEnded() = 0;
@@ -51,7 +53,7 @@ class ReadingReactor : public GuardedReactor<Base> {
   void StartNextRead() {
     const std::lock_guard lock(this->scope().mutex());
     if (this->scope().finished()) return;
-    message_->Clear();
+    message_.reset(empty_.New());
     reading_.Begin();
     this->StartRead(message_.get());
   }
@@ -60,7 +62,8 @@ class ReadingReactor : public GuardedReactor<Base> {
   absl::Duration Silence(absl::Time now) const { return reading_.Lasted(now); }
 
  private:
-  const std::unique_ptr<Request> message_;
+  const Request& empty_;
+  std::shared_ptr<Request> message_;  // while gRPC reads into it
   PeerWait reading_;
 };
 

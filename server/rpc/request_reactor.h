@@ -8,6 +8,8 @@
 #define ARGMESH_SERVER_RPC_REQUEST_REACTOR_H_
 
 #include <atomic>
+#include <memory>
+#include <utility>
 
 #include "server/rpc/reading_reactor.h"
 #include "server/rpc/status.h"
@@ -41,15 +43,15 @@ class RequestReactor : public ReadingReactor<Base, Request> {
   }
 
  protected:
-  // The message is there; it stays as long as the call.
-  virtual void Requested(const Request& request) = 0;
+  // The message is there.
+  virtual void Requested(std::shared_ptr<const Request> request) = 0;
 
   void Begin() final { this->StartNextRead(); }
 
-  void Received(Request& request) final {
+  void Received(std::shared_ptr<Request> request) final {
     received_ = true;
     if (slow_) requests().Remove(this);
-    Requested(request);
+    Requested(std::move(request));
   }
 
   void ReadsEnded() final {

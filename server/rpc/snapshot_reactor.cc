@@ -13,8 +13,9 @@ SnapshotReactor::SnapshotReactor(ServiceEnvironment& environment,
                                  grpc::CallbackServerContext* context)
     : WritingReactor(environment, context, "AdminService.DownloadSnapshot") {}
 
-void SnapshotReactor::Requested(const v1::DownloadSnapshotRequest& request) {
-  name_ = request.name();
+void SnapshotReactor::Requested(
+    std::shared_ptr<const v1::DownloadSnapshotRequest> request) {
+  name_ = request->name();
   Run(WorkClass::kQuick, [this] { SendNext(); });
 }
 

@@ -22,7 +22,8 @@ class SnapshotReactor final
                   grpc::CallbackServerContext* context);
 
  protected:
-  void Requested(const v1::DownloadSnapshotRequest& request) override;
+  void Requested(
+      std::shared_ptr<const v1::DownloadSnapshotRequest> request) override;
   absl::StatusOr<bool> Continue(v1::DownloadSnapshotResponse& next) override;
 
  private:

@@ -1,28 +1,27 @@
 #include "server/rpc/unary_reactor.h"
 
+#include <utility>
+
 namespace argmesh {
-namespace {
-
-std::unique_ptr<UnaryMethod::Message> EmptyOf(
-    const UnaryMethod::Message& type) {
-  return std::unique_ptr<UnaryMethod::Message>(type.New());
-}
-
-}  // namespace
 
 UnaryReactor::UnaryReactor(ServiceEnvironment& environment,
                            grpc::CallbackServerContext* context,
                            const UnaryMethod& method)
-    : AnsweringReactor(EmptyOf(method.response), environment, context,
-                       method.plan.method, EmptyOf(method.request)),
+    : AnsweringReactor(
+          std::unique_ptr<UnaryMethod::Message>(method.response.New()),
+          environment, context, method.plan.method, method.request),
       method_(method) {}
 
-void UnaryReactor::Requested(const UnaryMethod::Message& request) {
+void UnaryReactor::Requested(
+    std::shared_ptr<const UnaryMethod::Message> request) {
   const UnaryPlan& plan = method_.plan;
   if (plan.admission != nullptr && !AdmitTo(*plan.admission)) return;
-  Run(plan.work_class, [this, &request] {
-    FinishOnce(method_.body({environment(), stop(), scope().caller()}, request,
-                            &response()));
+  Run(plan.work_class, [this, request = std::move(request)]() mutable {
+    const absl::Status status = method_.body(
+        {environment(), stop(), scope().caller()}, *request, &response());
+    // Before the answer, which waits until the caller takes it.
+    request.reset();
+    FinishOnce(status);
   });
 }
 

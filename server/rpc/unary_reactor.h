@@ -47,7 +47,7 @@ class UnaryReactor final
                grpc::CallbackServerContext* context, const UnaryMethod& method);
 
  protected:
-  void Requested(const UnaryMethod::Message& request) override;
+  void Requested(std::shared_ptr<const UnaryMethod::Message> request) override;
 
  private:
   const UnaryMethod& method_;

@@ -19,9 +19,9 @@ WaitReactor::WaitReactor(ServiceEnvironment& environment,
                        environment, context, "Operations.WaitOperation") {}
 
 void WaitReactor::Requested(
-    const google::longrunning::WaitOperationRequest& request) {
+    std::shared_ptr<const google::longrunning::WaitOperationRequest> request) {
   const absl::StatusOr<std::string> id =
-      ParseOperationName("name", request.name());
+      ParseOperationName("name", request->name());
   if (!id.ok()) {
     FinishOnce(id.status());
     return;
@@ -31,9 +31,9 @@ void WaitReactor::Requested(
     const std::lock_guard lock(look_mutex_);
     id_ = *id;
     end_ = scope().deadline() - kMargin;
-    if (request.has_timeout()) {
-      end_ = std::min(end_, now + absl::Seconds(request.timeout().seconds()) +
-                                absl::Nanoseconds(request.timeout().nanos()));
+    if (request->has_timeout()) {
+      end_ = std::min(end_, now + absl::Seconds(request->timeout().seconds()) +
+                                absl::Nanoseconds(request->timeout().nanos()));
     }
   }
   Look(now);

@@ -30,7 +30,8 @@ class WaitReactor final
 
  protected:
   void Requested(
-      const google::longrunning::WaitOperationRequest& request) override;
+      std::shared_ptr<const google::longrunning::WaitOperationRequest> request)
+      override;
   void Cancelled() override;
 
  private:

@@ -65,6 +65,16 @@ std::string LargeAnswerRequest() {
   return GrpcMessage(request.SerializeAsString());
 }
 
+// A request of nearly 4 MiB, most of it a field that the server does not know,
+// that is answered.
+std::string LargeRequest() {
+  v1::GetShapeRequest request;
+  request.set_name(ShapeNamed("torus-0"));
+  request.GetReflection()->MutableUnknownFields(&request)->AddLengthDelimited(
+      1000, std::string(kMaxMessage - 100'000, 'x'));
+  return GrpcMessage(request.SerializeAsString());
+}
+
 // A connection's calls, each reset right after its message.
 std::string CallsWithResets(int calls) {
   v1::GetShapeRequest request;
@@ -213,6 +223,21 @@ TEST_F(HostilePeersTest, CompressedBombs) {
            peer.Read(seconds(10), [&] { return peer.ended() >= kBombs; });
            EXPECT_EQ(peer.ended(), kBombs) << "each is refused";
            EXPECT_EQ(peer.Count(Http2Frame::kData), 0) << "none is answered";
+         });
+}
+
+TEST_F(HostilePeersTest, LargeRequestsWhoseAnswersNobodyTakes) {
+  const std::string request = LargeRequest();
+  Endure("128 requests of 4 MB whose answers nobody takes", 192 * kMebibyte,
+         [&] {
+           Http2Peer peer(service_->address());
+           ASSERT_TRUE(peer.Send(Http2Hello(0)));
+           for (int n = 0; n < kStreams; ++n) {
+             ASSERT_TRUE(peer.Send(Http2Call(StreamId(n), kGetShape)));
+             ASSERT_TRUE(peer.SendData(StreamId(n), request, true));
+           }
+           peer.Read(seconds(20), [&] { return peer.ended() >= kStreams; });
+           EXPECT_EQ(peer.ended(), kStreams) << "every call is cut";
          });
 }
 
