@@ -95,12 +95,13 @@ class GuardedReactor
     scope_.RequestStop();
     // Before the client can know: its next call must not be refused for this
     // one.
-    ReleaseTicket();
+    scope_.ReleaseQuota();
+    ReleasePlace();
     End(scope_.Report(status));
   }
 
-  // Takes a place of its class until the call is finished; ends the call and
-  // returns false when there is none.
+  // Takes a place of its class until the call is finished, instead of the one
+  // it has; ends the call and returns false when there is none.
   bool AdmitTo(Admission& admission) {
     absl::StatusOr<Admission::Ticket> ticket = admission.Admit();
     if (!ticket.ok()) {
@@ -110,6 +111,12 @@ class GuardedReactor
     const std::lock_guard lock(scope_.mutex());
     if (!scope_.finished()) ticket_ = *std::move(ticket);
     return true;
+  }
+
+  // Gives the place back before the call is finished.
+  void ReleasePlace() {
+    const std::lock_guard lock(scope_.mutex());
+    ticket_.Release();
   }
 
   // Runs `step`; what it throws ends the call.
@@ -173,12 +180,6 @@ class GuardedReactor
     } else {
       FinishOnce(admission);
     }
-  }
-
-  void ReleaseTicket() {
-    scope_.ReleaseQuota();
-    const std::lock_guard lock(scope_.mutex());
-    ticket_.Release();
   }
 
   // Destroyed last: then nothing of the call uses the server any more.

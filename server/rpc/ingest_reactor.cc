@@ -46,6 +46,7 @@ void IngestReactor::Begin() {
 // --- reading -----------------------------------------------------------------
 
 void IngestReactor::Received(std::shared_ptr<v1::IngestShapesRequest> request) {
+  pace_.Moved(static_cast<int64_t>(request->ByteSizeLong()));
   RunPatiently(WorkClass::kQuick, [this, request] { Step(*request); });
 }
 
@@ -286,6 +287,7 @@ void IngestReactor::OnWriteDone(bool ok) {
     {
       const std::lock_guard lock(scope().mutex());
       writing_.End();
+      pace_.Moved(static_cast<int64_t>(message_.ByteSizeLong()));
       if (ok) StartNextWrite();
     }
     if (ok) {
@@ -314,15 +316,20 @@ void IngestReactor::FinishWhenDone() {
 void IngestReactor::OnTick(absl::Time now) {
   ResubmitWaiting();
   const absl::Duration limit = environment().stream_idle_timeout();
-  bool idle = false;
+  bool too_slow = false;
   {
     const std::lock_guard lock(scope().mutex());
+    const bool writes = writing_.pending();
+    const bool reads = Waits() && computing_ == 0 && ready_.empty();
+    too_slow = pace_.Lag(now, reads || writes) > limit;
     // A write that nobody takes blocks the end of the call too: only a
     // cancellation gets through.
-    if (writing_.Lasted(now) > limit) scope().context()->TryCancel();
-    idle = computing_ == 0 && ready_.empty() && Silence(now) > limit;
+    if (writes && (too_slow || writing_.Lasted(now) > limit)) {
+      scope().context()->TryCancel();
+      return;
+    }
   }
-  if (idle) FinishOnce(StreamIdle(limit));
+  if (too_slow) FinishOnce(StreamTooSlow(limit));
 }
 
 void IngestReactor::OnDrain(absl::Duration grace) {

@@ -6,7 +6,8 @@
 // included, so that neither side stalls the other and memory does not depend on
 // the number of items. A bad item gives an error
 // result; only a breach of the protocol ends the stream, after the results of
-// what was begun before.
+// what was begun before, and a client that neither sends nor takes enough while
+// nothing of it is computed (peer_pace.h).
 #ifndef ARGMESH_SERVER_RPC_INGEST_REACTOR_H_
 #define ARGMESH_SERVER_RPC_INGEST_REACTOR_H_
 
@@ -14,7 +15,9 @@
 #include <memory>
 #include <string>
 
+#include "absl/time/clock.h"
 #include "argmesh/v1/ingest_service.pb.h"
+#include "server/rpc/peer_pace.h"
 #include "server/rpc/reading_reactor.h"
 
 namespace argmesh {
@@ -73,6 +76,8 @@ class IngestReactor final
 
   std::string collection_;  // empty before hello
   ItemPtr current_;         // of the reading side; none between items
+
+  PeerPace pace_{absl::Now()};  // of both sides
 
   // All below with the scope's mutex.
   std::deque<ItemPtr> ready_;

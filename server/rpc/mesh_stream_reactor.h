@@ -2,15 +2,18 @@
 // its chunks.
 //
 // Chunks go straight to the disk; the mesh is handed on only when the client
-// has half-closed and size and SHA-256 are those of the header. A silent
-// client is cut off after the stream idle timeout.
+// has half-closed and size and SHA-256 are those of the header. A client that
+// is silent, or trickles, is cut off once it lags by the stream idle timeout
+// (peer_pace.h): the place that it holds is wanted by others.
 #ifndef ARGMESH_SERVER_RPC_MESH_STREAM_REACTOR_H_
 #define ARGMESH_SERVER_RPC_MESH_STREAM_REACTOR_H_
 
 #include <memory>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "core/base/status_macros.h"
+#include "server/rpc/peer_pace.h"
 #include "server/rpc/reading_reactor.h"
 #include "server/rpc/status.h"
 
@@ -19,7 +22,9 @@ namespace argmesh {
 struct MeshStreamPlan {
   const char* method;    // "ShapeService.UploadShape"
   WorkClass work_class;  // of what is done with the mesh
-  Admission& admission;  // what the call takes a place of
+  Admission& admission;  // what the call takes a place of while the mesh comes
+  // And, instead, once it is there; none: it keeps that place.
+  Admission* work_admission = nullptr;
 };
 
 // `Request` has a `header` and a `chunk`.
@@ -35,7 +40,9 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
   void OnTick(absl::Time now) override {
     this->ResubmitWaiting();
     const absl::Duration limit = this->environment().stream_idle_timeout();
-    if (this->Silence(now) > limit) this->FinishOnce(StreamIdle(limit));
+    if (pace_.Lag(now, this->Waits()) > limit) {
+      this->FinishOnce(StreamTooSlow(limit));
+    }
   }
 
  protected:
@@ -50,6 +57,7 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
   }
 
   void Received(std::shared_ptr<Request> request) final {
+    pace_.Moved(static_cast<int64_t>(request->ByteSizeLong()));
     const bool expected = request->has_header()  ? upload_ == nullptr
                           : request->has_chunk() ? upload_ != nullptr
                                                  : false;
@@ -75,6 +83,10 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
           StreamOrderInvalid("the stream ended before its header"));
       return;
     }
+    if (plan_.work_admission != nullptr &&
+        !this->AdmitTo(*plan_.work_admission)) {
+      return;
+    }
     this->RunPatiently(plan_.work_class, [this] {
       absl::StatusOr<std::unique_ptr<StagedMesh>> mesh = upload_->Finish();
       const absl::Status taken =
@@ -93,6 +105,7 @@ class MeshStreamReactor : public ReadingReactor<Base, Request> {
 
   const MeshStreamPlan plan_;
   std::unique_ptr<MeshUpload> upload_;
+  PeerPace pace_{absl::Now()};
 };
 
 }  // namespace argmesh

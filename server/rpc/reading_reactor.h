@@ -58,6 +58,8 @@ class ReadingReactor : public GuardedReactor<Base> {
     this->StartRead(message_.get());
   }
 
+  // A message of the client is waited for.
+  bool Waits() const { return reading_.pending(); }
   // How long the client has been silent while a message of it was waited for.
   absl::Duration Silence(absl::Time now) const { return reading_.Lasted(now); }
 

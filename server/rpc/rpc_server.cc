@@ -258,7 +258,8 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
                 "Such requests that were cut because there were too many.",
                 static_cast<double>(environment_.requests.cut()));
   for (const Admission* admission :
-       {&environment_.searches, &environment_.uploads, &environment_.ingests}) {
+       {&environment_.searches, &environment_.query_streams,
+        &environment_.uploads, &environment_.ingests}) {
     const GaugeSheet::Labels labels = {{"class", admission->what()}};
     sheet.Gauge("argmesh_admission_used", "Calls of a class in flight.",
                 admission->used(), labels);

@@ -37,7 +37,8 @@ struct ServiceLimits {
   int max_inflight_searches = 64;  // >= 1; also comparisons
   int max_inflight_uploads = 32;   // >= 1; CreateShape and UploadShape
   int max_inflight_ingests = 8;    // >= 1; streams
-  // A call whose peer sends or takes no message for so long ends; > 0.
+  // A call whose peer sends or takes no message for so long ends, and a stream
+  // of meshes whose peer lags by so much (peer_pace.h); > 0.
   absl::Duration stream_idle_timeout = absl::Seconds(60);
   // What an ingest stream may have under way; each >= 1.
   int ingest_credit_items = 16;
@@ -54,6 +55,7 @@ struct ServiceEnvironment {
         stream_idle_ms(
             absl::ToInt64Milliseconds(the_limits.stream_idle_timeout)),
         searches("searches", the_limits.max_inflight_searches),
+        query_streams("query streams", the_limits.max_inflight_searches),
         uploads("uploads", the_limits.max_inflight_uploads),
         ingests("ingest streams", the_limits.max_inflight_ingests),
         operations(the_telemetry.log()) {}
@@ -65,6 +67,7 @@ struct ServiceEnvironment {
   void SetLimits(const ServiceLimits& changed) {
     stream_idle_ms = absl::ToInt64Milliseconds(changed.stream_idle_timeout);
     searches.SetLimit(changed.max_inflight_searches);
+    query_streams.SetLimit(changed.max_inflight_searches);
     uploads.SetLimit(changed.max_inflight_uploads);
     ingests.SetLimit(changed.max_inflight_ingests);
   }
@@ -76,6 +79,7 @@ struct ServiceEnvironment {
   const ServiceLimits limits;
   std::atomic<int64_t> stream_idle_ms;  // as `limits`, until SetLimits
   Admission searches;
+  Admission query_streams;  // StreamSearchShapes whose mesh is not there yet
   Admission uploads;
   Admission ingests;
   CallRegistry calls;

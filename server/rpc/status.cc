@@ -8,6 +8,7 @@
 #include "absl/time/time.h"
 #include "google/rpc/error_details.pb.h"
 #include "server/engine/error_reason.h"
+#include "server/rpc/peer_pace.h"
 
 namespace argmesh {
 namespace {
@@ -187,6 +188,17 @@ absl::Status StreamIdle(absl::Duration limit) {
           ErrorReason::kStreamIdle,
           absl::StrFormat("nothing came for %s", absl::FormatDuration(limit)),
           {{"limit_seconds", absl::StrCat(absl::ToDoubleSeconds(limit))}}),
+      absl::Seconds(1));
+}
+
+absl::Status StreamTooSlow(absl::Duration limit) {
+  return WithRetryDelay(
+      MakeError(
+          ErrorReason::kStreamIdle,
+          absl::StrFormat("nothing came for %s, or less than %d bytes a second",
+                          absl::FormatDuration(limit), kLeastBytesPerSecond),
+          {{"limit_seconds", absl::StrCat(absl::ToDoubleSeconds(limit))},
+           {"least_bytes_per_second", absl::StrCat(kLeastBytesPerSecond)}}),
       absl::Seconds(1));
 }
 

@@ -34,6 +34,8 @@ absl::Status FieldRequired(std::string_view field);
 
 // STREAM_IDLE: the peer said nothing for `limit`.
 absl::Status StreamIdle(absl::Duration limit);
+// STREAM_IDLE: it said nothing, or too little (peer_pace.h).
+absl::Status StreamTooSlow(absl::Duration limit);
 // STREAM_ORDER_INVALID.
 absl::Status StreamOrderInvalid(std::string_view why);
 // OVERLOADED, for a request that has not come whole.

@@ -10,10 +10,12 @@ namespace argmesh {
 
 StreamSearchReactor::StreamSearchReactor(ServiceEnvironment& environment,
                                          grpc::CallbackServerContext* context)
-    : WritingReactor(environment, context,
-                     MeshStreamPlan{"SearchService.StreamSearchShapes",
-                                    WorkClass::kSearch, environment.searches}) {
-}
+    : WritingReactor(
+          environment, context,
+          MeshStreamPlan{"SearchService.StreamSearchShapes", WorkClass::kSearch,
+                         environment.query_streams, &environment.searches}) {}
+
+void StreamSearchReactor::OnOverBudget() { scope().context()->TryCancel(); }
 
 absl::StatusOr<UploadAnnouncement> StreamSearchReactor::Announced(
     const v1::StreamSearchShapesRequest& first) {
@@ -35,24 +37,35 @@ absl::Status StreamSearchReactor::Take(std::unique_ptr<StagedMesh> mesh) {
   ARGMESH_ASSIGN_OR_RETURN(std::get<MeshBytes>(query_.query).bytes,
                            mesh->ReadAll());
   mesh.reset();
-  ARGMESH_ASSIGN_OR_RETURN(answer_, engine().Search(query_, stop()));
+  ARGMESH_ASSIGN_OR_RETURN(const SearchAnswer answer,
+                           engine().Search(query_, stop()));
   query_ = {};
+  Prepare(answer);
+  // Who takes the answer slowly takes no place of a search meanwhile.
+  ReleasePlace();
   SendNext();
   return absl::OkStatus();
 }
 
+void StreamSearchReactor::Prepare(const SearchAnswer& answer) {
+  *messages_.emplace_back().mutable_query() = QueryToProto(answer, form_);
+  for (const SearchMatch& match : answer.matches) {
+    *messages_.emplace_back().mutable_match() = ToProto(match, form_);
+  }
+  *messages_.emplace_back().mutable_stats() = ToProto(answer.stats);
+  int64_t bytes = 0;
+  for (const v1::StreamSearchShapesResponse& message : messages_) {
+    bytes += static_cast<int64_t>(message.ByteSizeLong());
+  }
+  environment().answers.Add(this, scope().peer(), bytes);
+}
+
 absl::StatusOr<bool> StreamSearchReactor::Continue(
     v1::StreamSearchShapesResponse& next) {
-  const size_t at = sent_++;
-  const size_t matches = answer_.matches.size();
-  if (at == 0) {
-    *next.mutable_query() = QueryToProto(answer_, form_);
-  } else if (at <= matches) {
-    *next.mutable_match() = ToProto(answer_.matches[at - 1], form_);
-  } else if (at == matches + 1) {
-    *next.mutable_stats() = ToProto(answer_.stats);
-  }
-  return at <= matches + 1;
+  if (messages_.empty()) return false;
+  next = std::move(messages_.front());
+  messages_.pop_front();
+  return true;
 }
 
 }  // namespace argmesh

@@ -1,9 +1,13 @@
 // SearchService.StreamSearchShapes: a query mesh in chunks; then what was found
 // in it, the matches one by one, and the stats.
+//
+// A place among the searches is held from when the mesh is there until the
+// answer is: neither a slow sender nor a slow reader takes it from others. The
+// answer counts among those that are not taken (ServiceEnvironment::answers).
 #ifndef ARGMESH_SERVER_RPC_STREAM_SEARCH_REACTOR_H_
 #define ARGMESH_SERVER_RPC_STREAM_SEARCH_REACTOR_H_
 
-#include <cstddef>
+#include <deque>
 #include <memory>
 
 #include "argmesh/v1/search_service.pb.h"
@@ -24,6 +28,8 @@ class StreamSearchReactor final
   StreamSearchReactor(ServiceEnvironment& environment,
                       grpc::CallbackServerContext* context);
 
+  void OnOverBudget() override;
+
  protected:
   absl::StatusOr<UploadAnnouncement> Announced(
       const v1::StreamSearchShapesRequest& first) override;
@@ -31,10 +37,11 @@ class StreamSearchReactor final
   absl::StatusOr<bool> Continue(v1::StreamSearchShapesResponse& next) override;
 
  private:
+  void Prepare(const SearchAnswer& answer);
+
   SearchQuery query_;
   SearchAnswerForm form_;
-  SearchAnswer answer_;
-  size_t sent_ = 0;  // messages
+  std::deque<v1::StreamSearchShapesResponse> messages_;  // of the answer
 };
 
 }  // namespace argmesh

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/base/sha256.h"
 #include "tests/integration/server_fixture.h"
@@ -77,8 +79,12 @@ class IngestStream {
     return true;
   }
 
+  void HalfClose() {
+    if (!std::exchange(half_closed_, true)) stream_->WritesDone();
+  }
+
   grpc::Status Finish() {
-    stream_->WritesDone();
+    HalfClose();
     while (Read()) {
     }
     return stream_->Finish();
@@ -92,6 +98,7 @@ class IngestStream {
   std::map<std::string, v1::IngestItemResult> results;
 
  private:
+  bool half_closed_ = false;
   grpc::ClientContext context_;
   std::unique_ptr<Stream> stream_;
 };
@@ -322,6 +329,35 @@ TEST_F(IngestTest, CutsASilentClientOff) {
   }
   EXPECT_FAILS(stream.Finish(), UNAVAILABLE, "STREAM_IDLE");
   EXPECT_EQ(CountShapes(), 0);
+}
+
+TEST_F(IngestTest, CutsAClientThatTricklesOff) {
+  IngestStream stream(server_);
+  ASSERT_TRUE(stream.Hello("collections/c"));
+  ASSERT_TRUE(stream.Read());
+  stream.Send(IngestStream::Item("slow", TorusOff()));
+  // Each well before the idle timeout.
+  while (stream.SendChunk("O")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_FAILS(stream.Finish(), UNAVAILABLE, "STREAM_IDLE");
+}
+
+TEST_F(IngestTest, CutsAClientThatTakesItsResultsSlowlyOff) {
+  // Without a socket a message is sent when the client reads it.
+  const auto stub =
+      v1::IngestService::NewStub(server_.rpc().InProcessChannel());
+  IngestStream stream(*stub);
+  ASSERT_TRUE(stream.Hello("collections/c"));
+  for (const char* key : {"a", "b", "c"}) {
+    v1::IngestItem refused;
+    refused.set_key(key);
+    ASSERT_TRUE(stream.Send(refused));
+  }
+  stream.HalfClose();
+  // Each well before the idle timeout.
+  while (stream.Read()) std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_EQ(stream.Finish().error_code(), grpc::StatusCode::CANCELLED);
 }
 
 TEST_F(IngestTest, LetsGoOfEverythingWhenTheClientCancels) {

@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/base/sha256.h"
+#include "server/telemetry/gauge_sheet.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -28,12 +31,15 @@ struct Found {
 
 class StreamSearchTest : public ::testing::Test {
  protected:
-  StreamSearchTest() : server_(Options()) {}
+  explicit StreamSearchTest(
+      absl::Duration stream_idle_timeout = absl::Milliseconds(400))
+      : server_(Options(stream_idle_timeout)) {}
 
-  static TestServerOptions Options() {
+  static TestServerOptions Options(absl::Duration stream_idle_timeout) {
     TestServerOptions options;
     options.engine.mesh_limits.max_bytes = kMaxMeshBytes;
-    options.rpc.limits.stream_idle_timeout = absl::Milliseconds(400);
+    options.rpc.limits.stream_idle_timeout = stream_idle_timeout;
+    options.rpc.limits.max_inflight_searches = 1;
     return options;
   }
 
@@ -202,6 +208,20 @@ TEST_F(StreamSearchTest, CutsASilentClientOff) {
   EXPECT_TRUE(server_.Stop(absl::Seconds(5)));
 }
 
+TEST_F(StreamSearchTest, CutsAClientThatTricklesOff) {
+  const std::string off = TorusOff();
+  grpc::ClientContext context;
+  const auto stream = server_.search().StreamSearchShapes(&context);
+  Send(*stream, Header(off), "");
+  v1::StreamSearchShapesRequest byte;
+  byte.set_chunk("O");
+  // Each well before the idle timeout.
+  while (stream->Write(byte)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_FAILS(Receive(*stream).status, UNAVAILABLE, "STREAM_IDLE");
+}
+
 TEST_F(StreamSearchTest, StopsWhenItIsCancelled) {
   const std::string off = SphereOff(200);
   grpc::ClientContext context;
@@ -211,6 +231,82 @@ TEST_F(StreamSearchTest, StopsWhenItIsCancelled) {
   context.TryCancel();
   EXPECT_EQ(Receive(*stream).status.error_code(), grpc::StatusCode::CANCELLED);
   EXPECT_TRUE(server_.Stop(absl::Seconds(5)));
+}
+
+// Peers that take their time, with one place for searches.
+class SlowStreamSearchTest : public StreamSearchTest {
+ protected:
+  SlowStreamSearchTest() : StreamSearchTest(absl::Minutes(5)) {}
+
+  grpc::Status SearchByShape() {
+    v1::SearchShapesRequest request;
+    request.set_parent("collections/c");
+    request.set_shape("collections/c/shapes/torus");
+    grpc::ClientContext context;
+    v1::SearchShapesResponse response;
+    return server_.search().SearchShapes(&context, request, &response);
+  }
+
+  // The value of a gauge; of the class `what` where it has classes.
+  double Gauge(const std::string& name, const std::string& what = "") {
+    GaugeSheet sheet;
+    server_.rpc().WriteGauges(sheet);
+    for (const auto& sample : sheet.families().at(name).samples) {
+      if (what.empty() || sample.labels.at(0).second == what) {
+        return sample.value;
+      }
+    }
+    ADD_FAILURE() << "no class " << what;
+    return 0;
+  }
+
+  void AwaitPlaces(const std::string& what, double places) {
+    while (Gauge("argmesh_admission_used", what) != places) {
+      std::this_thread::yield();
+    }
+  }
+};
+
+TEST_F(SlowStreamSearchTest, TakesNoPlaceOfASearchWhileTheMeshComes) {
+  grpc::ClientContext context;
+  const auto stream = server_.search().StreamSearchShapes(&context);
+  Send(*stream, Header(TorusOff()), "");
+  AwaitPlaces("query streams", 1);
+  ASSERT_CALL_OK(SearchByShape());
+  stream->WritesDone();
+  EXPECT_FAILS(Receive(*stream).status, INVALID_ARGUMENT, "MESH_SIZE_MISMATCH");
+}
+
+TEST_F(SlowStreamSearchTest, LetsOnlySoManyMeshesComeAtATime) {
+  const std::string off = TorusOff();
+  grpc::ClientContext context;
+  const auto stream = server_.search().StreamSearchShapes(&context);
+  Send(*stream, Header(off), "");
+  AwaitPlaces("query streams", 1);
+  EXPECT_FAILS(Search(Header(off), off).status, RESOURCE_EXHAUSTED,
+               "OVERLOADED");
+  context.TryCancel();
+  Receive(*stream);
+  AwaitPlaces("query streams", 0);
+}
+
+TEST_F(SlowStreamSearchTest, TakesNoPlaceOfASearchWhileItsAnswerIsNotTaken) {
+  // Without a socket a message is sent when the client reads it.
+  const auto stub =
+      v1::SearchService::NewStub(server_.rpc().InProcessChannel());
+  const std::string off = TorusOff();
+  grpc::ClientContext context;
+  const auto stream = stub->StreamSearchShapes(&context);
+  Send(*stream, Header(off), off);
+  stream->WritesDone();
+  v1::StreamSearchShapesResponse first;
+  ASSERT_TRUE(stream->Read(&first));
+  EXPECT_TRUE(first.has_query());
+  ASSERT_CALL_OK(SearchByShape());
+  EXPECT_GT(Gauge("argmesh_unread_answer_bytes"), 0);
+  const Found found = Receive(*stream);
+  ASSERT_CALL_OK(found.status);
+  EXPECT_EQ(found.order, "mmms");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
@@ -188,6 +190,20 @@ TEST_F(UploadTest, ForgetsAnUploadThatIsCancelledInTheMiddle) {
   EXPECT_TRUE(server_.Stop(absl::Seconds(5)));
   server_.Start();
   EXPECT_FALSE(IsStored());
+}
+
+TEST_F(UploadTest, CutsAClientThatTricklesOff) {
+  grpc::ClientContext context;
+  v1::Shape shape;
+  const auto writer = server_.shapes().UploadShape(&context, &shape);
+  v1::UploadShapeRequest request;
+  *request.mutable_header() = Header(TorusOff());
+  // Each well before the idle timeout.
+  while (writer->Write(request)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    request.set_chunk("O");
+  }
+  EXPECT_FAILS(writer->Finish(), UNAVAILABLE, "STREAM_IDLE");
 }
 
 TEST(UploadLimitTest, RefusesOneUploadMoreThanItsLimit) {
