@@ -73,6 +73,9 @@ void AddLimits(CLI::App& app, ServerOptions& options) {
   app.add_option("--max-mesh-bytes", options.max_mesh_bytes,
                  "Largest mesh file taken")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  app.add_option("--mesh-memory", options.mesh_memory,
+                 "Bytes that all meshes under computation may take together")
+      ->check(CLI::Range(int64_t{1} << 20, int64_t{1} << 50));
   app.add_option("--max-inflight-searches", options.max_inflight_searches,
                  "Searches at work or waiting")
       ->check(CLI::Range(1, kMaxInflight));
@@ -242,6 +245,7 @@ std::string FormatServerOptions(const ServerOptions& options) {
       "\nmetrics-listen=", Quoted(options.metrics_listen),
       "\nthreads=", options.threads,
       "\nmax-mesh-bytes=", options.max_mesh_bytes,
+      "\nmesh-memory=", options.mesh_memory,
       "\nmax-inflight-searches=", options.max_inflight_searches,
       "\nmax-inflight-uploads=", options.max_inflight_uploads,
       "\nmax-inflight-ingests=", options.max_inflight_ingests,

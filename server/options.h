@@ -26,6 +26,7 @@ struct ServerOptions {
   std::string import_root;                // a folder; empty: no imports
   int threads = 0;                        // 0 .. 1024; 0: from the CPUs
   int64_t max_mesh_bytes = 512LL << 20;   // 1 .. 2^40
+  int64_t mesh_memory = 2LL << 30;        // bytes, 2^20 .. 2^50
   int max_inflight_searches = 64;         // 1 .. 100,000
   int max_inflight_uploads = 32;          // 1 .. 100,000
   int max_inflight_ingests = 8;           // 1 .. 100,000

@@ -55,6 +55,7 @@ absl::StatusOr<RpcServerOptions> RpcOptionsOf(const ServerOptions& options) {
 EngineOptions EngineOptionsOf(const ServerOptions& options) {
   EngineOptions engine;
   engine.mesh_limits.max_bytes = options.max_mesh_bytes;
+  engine.mesh_memory = options.mesh_memory;
   if (options.threads > 0) {
     engine.pool.threads = {options.threads, std::max(1, options.threads - 1),
                            2 * options.threads};

@@ -55,10 +55,12 @@ Engine::Parts::Parts(const EngineOptions& engine_options,
       catalog(std::move(engine_catalog)),
       meshes(std::move(engine_meshes)),
       pool(options.pool),
+      mesh_memory(options.mesh_memory),
       gallery(*catalog, pool),
-      ingest(options, *catalog, *meshes, gallery, running_reindexes),
+      ingest(options, *catalog, *meshes, gallery, running_reindexes,
+             mesh_memory),
       reindexer(*catalog, gallery, ingest, pool, running_reindexes),
-      search(options, *catalog, *meshes, gallery, pool) {}
+      search(options, *catalog, *meshes, gallery, mesh_memory, pool) {}
 
 absl::Status Engine::Parts::CheckOpen() const {
   if (!closed) return absl::OkStatus();

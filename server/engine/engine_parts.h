@@ -15,6 +15,7 @@
 #include "server/engine/engine_options.h"
 #include "server/engine/gallery.h"
 #include "server/engine/ingest.h"
+#include "server/engine/mesh_memory.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/reindex.h"
 #include "server/engine/running_reindexes.h"
@@ -38,6 +39,7 @@ class Engine::Parts {
   const std::unique_ptr<Catalog> catalog;
   const std::unique_ptr<MeshStore> meshes;
   ComputePool pool;
+  MeshMemory mesh_memory;
   Gallery gallery;
   RunningReindexes running_reindexes;
   Ingest ingest;

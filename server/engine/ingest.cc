@@ -75,8 +75,9 @@ struct Ingest::Described {
 
 Ingest::Ingest(const EngineOptions& options, Catalog& catalog,
                MeshStore& meshes, Gallery& gallery,
-               const RunningReindexes& running)
+               const RunningReindexes& running, MeshMemory& memory)
     : options_(options),
+      analyzer_(options, memory, absl::InfiniteDuration()),
       catalog_(catalog),
       meshes_(meshes),
       gallery_(gallery),
@@ -206,9 +207,8 @@ absl::StatusOr<AddedShape> Ingest::Store(const NewShape& shape, Source& source,
 absl::StatusOr<StagedDescription> Ingest::DescribeWith(
     const CollectionSettings& settings, const std::string& bytes,
     MeshFormat format, const StopToken& stop) const {
-  ARGMESH_ASSIGN_OR_RETURN(
-      const AnalyzedMesh analyzed,
-      AnalyzeMesh(bytes, format, settings, options_, stop));
+  ARGMESH_ASSIGN_OR_RETURN(const AnalyzedMesh analyzed,
+                           analyzer_.Analyze(bytes, format, settings, stop));
   StagedDescription description;
   description.stage = {settings, kShapeGraphVersion};
   description.report = analyzed.computed.report;
@@ -221,9 +221,9 @@ absl::StatusOr<StagedDescription> Ingest::DescribeWith(
 absl::StatusOr<Ingest::Described> Ingest::Describe(
     const NewShape& shape, const CollectionRecord& collection,
     const Source& source, const StopToken& stop) const {
-  ARGMESH_ASSIGN_OR_RETURN(const AnalyzedMesh analyzed,
-                           AnalyzeMesh(source.bytes, shape.format,
-                                       collection.settings, options_, stop));
+  ARGMESH_ASSIGN_OR_RETURN(
+      AnalyzedMesh analyzed,
+      analyzer_.Analyze(source.bytes, shape.format, collection.settings, stop));
   ShapePut put;
   put.record = RecordOf(shape, analyzed);
   put.record.sha256 = source.sha256;
@@ -242,6 +242,8 @@ absl::StatusOr<Ingest::Described> Ingest::Describe(
   put.etag = shape.etag;
   const auto goal = running_.Goal(collection.uid);
   if (goal && !MakeSameGraphs(*goal, collection.settings)) {
+    // It needs the memory of this one, which is done with its surface.
+    analyzed.memory = {};
     // One that fails is left to the reindex, which tells why.
     absl::StatusOr<StagedDescription> staged =
         DescribeWith(*goal, source.bytes, shape.format, analyzed.within);

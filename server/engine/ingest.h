@@ -17,6 +17,7 @@
 #include "server/engine/engine_options.h"
 #include "server/engine/gallery.h"
 #include "server/engine/mesh_analysis.h"
+#include "server/engine/mesh_memory.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/mesh_upload.h"
 #include "server/engine/running_reindexes.h"
@@ -28,7 +29,7 @@ class Ingest {
  public:
   // All must outlive it.
   Ingest(const EngineOptions& options, Catalog& catalog, MeshStore& meshes,
-         Gallery& gallery, const RunningReindexes& running);
+         Gallery& gallery, const RunningReindexes& running, MeshMemory& memory);
 
   absl::StatusOr<AddedShape> AddShape(const NewShape& shape, MeshSource mesh,
                                       const StopToken& stop);
@@ -78,6 +79,7 @@ class Ingest {
   absl::StatusOr<AddedShape> Commit(const ShapePut& put, Searchable searchable);
 
   const EngineOptions& options_;
+  const MeshAnalyzer analyzer_;
   Catalog& catalog_;
   MeshStore& meshes_;
   Gallery& gallery_;

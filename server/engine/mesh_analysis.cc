@@ -90,41 +90,42 @@ absl::Status CheckMeshSize(int64_t bytes, const MeshLimits& limits) {
                     {"limit", absl::StrFormat("%d", limits.max_bytes)}});
 }
 
-absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
-    const TriangleMesh& mesh, const CollectionSettings& settings,
-    const EngineOptions& options, const StopToken& stop) {
+absl::StatusOr<AnalyzedMesh> MeshAnalyzer::AnalyzeParsed(
+    TriangleMesh mesh, const CollectionSettings& settings,
+    const StopToken& stop) const {
   if (mesh.num_vertices() == 0 || mesh.num_faces() == 0) {
     return MakeError(ErrorReason::kMeshEmpty,
                      absl::StrFormat("the mesh has %d vertices and %d faces",
                                      mesh.num_vertices(), mesh.num_faces()));
   }
-  const StopToken capped =
-      stop.WithDeadline(absl::Now() + options.max_compute_time);
+  AnalyzedMesh analyzed;
+  ARGMESH_ASSIGN_OR_RETURN(
+      analyzed.memory,
+      memory_.Claim(mesh.num_vertices(), mesh.num_faces(), max_wait_, stop));
+  analyzed.within = stop.WithDeadline(absl::Now() + options_.max_compute_time);
   absl::StatusOr<ComputedGraph> computed =
-      ComputeShapeGraph(mesh, AbstractionOptionsOf(settings), capped);
-  if (computed.ok()) return computed;
-  return OverComputeTime(ComputeError(computed.status()), stop, options);
+      ComputeShapeGraph(mesh, AbstractionOptionsOf(settings), analyzed.within);
+  if (!computed.ok()) {
+    return OverComputeTime(ComputeError(computed.status()), stop, options_);
+  }
+  analyzed.computed = *std::move(computed);
+  analyzed.mesh = std::move(mesh);
+  return analyzed;
 }
 
-absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
-                                         MeshFormat format,
-                                         const CollectionSettings& settings,
-                                         const EngineOptions& options,
-                                         const StopToken& stop) {
+absl::StatusOr<AnalyzedMesh> MeshAnalyzer::Analyze(
+    std::string_view bytes, MeshFormat format,
+    const CollectionSettings& settings, const StopToken& stop) const {
   ARGMESH_RETURN_IF_ERROR(
-      CheckMeshSize(static_cast<int64_t>(bytes.size()), options.mesh_limits));
+      CheckMeshSize(static_cast<int64_t>(bytes.size()), options_.mesh_limits));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  AnalyzedMesh analyzed;
-  analyzed.within = stop.WithDeadline(absl::Now() + options.max_compute_time);
   absl::StatusOr<ParsedMesh> parsed =
-      ParseMesh(bytes, format, options.mesh_limits);
+      ParseMesh(bytes, format, options_.mesh_limits);
   if (!parsed.ok()) return ParseError(parsed.status(), format);
+  ARGMESH_ASSIGN_OR_RETURN(
+      AnalyzedMesh analyzed,
+      AnalyzeParsed(std::move(parsed->mesh), settings, stop));
   analyzed.format = parsed->format;
-  absl::StatusOr<ComputedGraph> computed =
-      AnalyzeParsedMesh(parsed->mesh, settings, options, analyzed.within);
-  if (!computed.ok()) return OverComputeTime(computed.status(), stop, options);
-  analyzed.computed = *std::move(computed);
-  analyzed.mesh = std::move(parsed->mesh);
   return analyzed;
 }
 

@@ -7,12 +7,14 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "core/base/stop_token.h"
 #include "core/graph/compute_graph.h"
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/triangle_mesh.h"
 #include "server/engine/collection_record.h"
 #include "server/engine/engine_options.h"
+#include "server/engine/mesh_memory.h"
 #include "server/engine/shape_record.h"
 
 namespace argmesh {
@@ -24,25 +26,39 @@ struct AnalyzedMesh {
   // Ends with options.max_compute_time too: for all else that is computed of
   // this mesh.
   StopToken within;
+  MeshMemoryClaim memory;  // until all of that is done
 };
 
-// Parses, repairs, abstracts.
-//
-// Fails    MESH_MALFORMED (metadata `line` or `offset` where known),
-//          MESH_FORMAT_UNKNOWN, MESH_EMPTY, MESH_DEGENERATE,
-//          MESH_TOO_LARGE (over a limit, or over options.max_compute_time),
-//          kCancelled, kDeadlineExceeded of `stop`
-// Cost     the time counts from the parse on, which itself is not stopped
-absl::StatusOr<AnalyzedMesh> AnalyzeMesh(std::string_view bytes,
-                                         MeshFormat format,
-                                         const CollectionSettings& settings,
-                                         const EngineOptions& options,
-                                         const StopToken& stop);
+class MeshAnalyzer {
+ public:
+  // Both must outlive it. A mesh waits up to `max_wait` for its memory.
+  MeshAnalyzer(const EngineOptions& options, MeshMemory& memory,
+               absl::Duration max_wait)
+      : options_(options), memory_(memory), max_wait_(max_wait) {}
 
-// From the mesh on, as AnalyzeMesh.
-absl::StatusOr<ComputedGraph> AnalyzeParsedMesh(
-    const TriangleMesh& mesh, const CollectionSettings& settings,
-    const EngineOptions& options, const StopToken& stop);
+  // Parses, repairs, abstracts.
+  //
+  // Fails    MESH_MALFORMED (metadata `line` or `offset` where known),
+  //          MESH_FORMAT_UNKNOWN, MESH_EMPTY, MESH_DEGENERATE,
+  //          MESH_TOO_LARGE (over a limit, over options.max_compute_time or
+  //          over the memory), OVERLOADED (MeshMemory)
+  //          kCancelled, kDeadlineExceeded of `stop`
+  // Cost     the time counts from after the parse, which itself is not stopped
+  absl::StatusOr<AnalyzedMesh> Analyze(std::string_view bytes,
+                                       MeshFormat format,
+                                       const CollectionSettings& settings,
+                                       const StopToken& stop) const;
+
+  // From the mesh on.
+  absl::StatusOr<AnalyzedMesh> AnalyzeParsed(TriangleMesh mesh,
+                                             const CollectionSettings& settings,
+                                             const StopToken& stop) const;
+
+ private:
+  const EngineOptions& options_;
+  MeshMemory& memory_;
+  const absl::Duration max_wait_;
+};
 
 // `status`, or MESH_TOO_LARGE when options.max_compute_time has ended what was
 // computed, and not the caller's `stop`.

@@ -60,14 +60,20 @@ absl::Status FillSurface(const TriangleMesh& repaired, const QueryNeeds& needs,
   return absl::OkStatus();
 }
 
-// `mesh` is what `computed` was made of.
-absl::StatusOr<ResolvedQuery> ResolveComputed(TriangleMesh mesh,
-                                              ComputedGraph computed,
+absl::StatusOr<ResolvedQuery> ResolveAnalyzed(AnalyzedMesh analyzed,
                                               const QueryNeeds& needs,
+                                              const EngineOptions& options,
                                               const StopToken& stop) {
+  ComputedGraph& computed = analyzed.computed;
   ResolvedQuery query;
-  ARGMESH_RETURN_IF_ERROR(FillSurface(computed.repaired, needs, stop, query));
-  if (needs.surface) query.surface = {std::move(mesh), computed.labels};
+  if (const absl::Status status =
+          FillSurface(computed.repaired, needs, analyzed.within, query);
+      !status.ok()) {
+    return OverComputeTime(status, stop, options);
+  }
+  if (needs.surface) {
+    query.surface = {std::move(analyzed.mesh), computed.labels};
+  }
   query.graph = {std::move(computed.graph), std::move(computed.labels),
                  computed.report};
   return query;
@@ -215,11 +221,10 @@ absl::StatusOr<ResolvedQuery> QueryResolver::Resolve(
   if (const auto* mesh = std::get_if<MeshBytes>(&shape)) {
     ARGMESH_ASSIGN_OR_RETURN(
         AnalyzedMesh analyzed,
-        AnalyzeMesh(mesh->bytes, mesh->format, settings, options_, stop));
+        analyzer_.Analyze(mesh->bytes, mesh->format, settings, stop));
     ARGMESH_ASSIGN_OR_RETURN(
         ResolvedQuery query,
-        ResolveComputed(std::move(analyzed.mesh), std::move(analyzed.computed),
-                        needs, analyzed.within));
+        ResolveAnalyzed(std::move(analyzed), needs, options_, stop));
     query.sha256 = ComputeSha256(mesh->bytes);
     return query;
   }
@@ -242,9 +247,10 @@ absl::StatusOr<ResolvedQuery> QueryResolver::ResolveRegion(
   const int num_nodes =
       graph.levels.empty() ? 0 : graph.levels.back().num_nodes();
   ARGMESH_RETURN_IF_ERROR(KeepRegion(shape, labels, nodes, num_nodes, mesh));
-  ARGMESH_ASSIGN_OR_RETURN(ComputedGraph computed,
-                           AnalyzeParsedMesh(mesh, settings, options_, stop));
-  return ResolveComputed(std::move(mesh), std::move(computed), needs, stop);
+  ARGMESH_ASSIGN_OR_RETURN(
+      AnalyzedMesh analyzed,
+      analyzer_.AnalyzeParsed(std::move(mesh), settings, stop));
+  return ResolveAnalyzed(std::move(analyzed), needs, options_, stop);
 }
 
 }  // namespace argmesh

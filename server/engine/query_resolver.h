@@ -17,6 +17,8 @@
 #include "core/signature/shape_signature.h"
 #include "server/engine/catalog.h"
 #include "server/engine/engine_options.h"
+#include "server/engine/mesh_analysis.h"
+#include "server/engine/mesh_memory.h"
 #include "server/engine/mesh_store.h"
 #include "server/engine/search_requests.h"
 
@@ -54,14 +56,17 @@ class QueryResolver {
  public:
   // All must outlive it.
   QueryResolver(const EngineOptions& options, const Catalog& catalog,
-                const MeshStore& meshes)
-      : options_(options), catalog_(catalog), meshes_(meshes) {}
+                const MeshStore& meshes, MeshMemory& memory)
+      : options_(options),
+        analyzer_(options, memory, options.pool.max_wait),
+        catalog_(catalog),
+        meshes_(meshes) {}
 
   // Fails    kGraphVersionMismatch  a stored shape's collection has other
   //          settings than `settings`, or another version computed it
   //          kMeshNotStored  windows or surface of a stored shape whose mesh is
   //          not kept
-  //          kGraphInvalid; as AnalyzeMesh
+  //          kGraphInvalid; as MeshAnalyzer
   absl::StatusOr<ResolvedQuery> Resolve(const QueryShape& shape,
                                         const CollectionSettings& settings,
                                         const QueryNeeds& needs,
@@ -92,6 +97,7 @@ class QueryResolver {
       const StoredGraph& stored) const;  // read with its labels
 
   const EngineOptions& options_;
+  const MeshAnalyzer analyzer_;
   const Catalog& catalog_;
   const MeshStore& meshes_;
 };

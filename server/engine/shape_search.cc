@@ -123,11 +123,11 @@ bool HasWindows(const QueryWindows& query) {
 
 ShapeSearch::ShapeSearch(const EngineOptions& options, const Catalog& catalog,
                          const MeshStore& meshes, const Gallery& gallery,
-                         ComputePool& pool)
+                         MeshMemory& memory, ComputePool& pool)
     : pool_(pool),
       catalog_(catalog),
       gallery_(gallery),
-      resolver_(options, catalog, meshes),
+      resolver_(options, catalog, meshes, memory),
       ranker_(MakeTwoStageRanker(pool)),
       containment_(catalog, pool) {}
 

@@ -24,7 +24,7 @@ class ShapeSearch {
   // All must outlive it.
   ShapeSearch(const EngineOptions& options, const Catalog& catalog,
               const MeshStore& meshes, const Gallery& gallery,
-              ComputePool& pool);
+              MeshMemory& memory, ComputePool& pool);
 
   // The ranking, then the full match of what is answered.
   absl::StatusOr<SearchAnswer> Search(const SearchQuery& query,

@@ -124,13 +124,30 @@ TEST_F(EngineTest, GivesUpOnAMeshThatTakesTooLong) {
             ErrorReason::kMeshTooLarge);
 }
 
-TEST(AnalyzeMesh, LeavesTheRestOfItsTimeToWhatFollows) {
+TEST_F(EngineTest, RefusesAMeshThatTakesTooMuchMemory) {
+  EngineOptions options;
+  options.mesh_memory = 24 * 12 * (370 + 2 * 150) - 1;  // of a torus
+  Start(options);
+  EXPECT_EQ(ReasonOrOk(engine_->AddShape(Named("red"), TorusOff(3))),
+            ErrorReason::kMeshTooLarge);
+  EXPECT_EQ(ReasonOrOk(engine_->Search(SearchFor(MeshBytes{TorusOff(3)}))),
+            ErrorReason::kMeshTooLarge);
+  ++options.mesh_memory;
+  Start(options);
+  for (const char* id : {"red", "blue"}) {
+    EXPECT_THAT(engine_->AddShape(Named(id), TorusOff(3)), IsOk());
+  }
+}
+
+TEST(MeshAnalyzer, LeavesTheRestOfItsTimeToWhatFollows) {
   EngineOptions options;
   options.max_compute_time = absl::Seconds(60);
+  MeshMemory memory(options.mesh_memory);
+  const MeshAnalyzer analyzer(options, memory, absl::ZeroDuration());
   const absl::Time before = absl::Now();
   ASSERT_OK_AND_ASSIGN(
       const AnalyzedMesh analyzed,
-      AnalyzeMesh(TorusOff(3), MeshFormat::kOff, QuickSettings(), options, {}));
+      analyzer.Analyze(TorusOff(3), MeshFormat::kOff, QuickSettings(), {}));
   EXPECT_LT(analyzed.within.deadline(), absl::Now() + absl::Seconds(60));
   EXPECT_GE(analyzed.within.deadline(), before + absl::Seconds(60));
   const absl::Status over = absl::DeadlineExceededError("over");
