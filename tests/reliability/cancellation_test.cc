@@ -1,7 +1,7 @@
-// Calls of every kind of long work, each cancelled at a random moment: its work
-// stops, and nothing of it stays behind.
+// Calls of the kinds that work long, each cancelled at a random moment: its
+// work stops, and nothing of it stays behind.
 //
-// ARGMESH_CANCELLED_CALLS of them, 33 when not set; from seed
+// ARGMESH_CANCELLED_CALLS of them, 39 when not set; from seed
 // ARGMESH_CANCELLED_SEED, 1. How soon the work stops is printed. Other work on
 // the machine has a part in that, so what is asked is the time on a CPU that
 // this process takes meanwhile: what is promised, for each thread of a search.
@@ -45,6 +45,7 @@ constexpr char kCalls[] = "ARGMESH_CANCELLED_CALLS";
 constexpr char kParts[] = "collections/parts";
 constexpr int kShapes = 6;
 constexpr int kFiles = 4;
+constexpr size_t kDownloadBytes = 16 << 20;
 constexpr double kPromisedMilliseconds = 50;
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr int64_t kMostGrowth = 128 << 20;
@@ -112,6 +113,18 @@ class CancellationTest : public testing::Test {
       server_->AddShape("parts", "torus-" + std::to_string(i),
                         TorusOff(0.3 + 0.1 * i));
     }
+    server_->MakeCollection("reindexed");
+    for (int i = 0; i < kShapes; ++i) {
+      server_->AddShape("reindexed", "torus-" + std::to_string(i),
+                        TorusOff(0.3 + 0.1 * i));
+    }
+    NewShape downloaded;
+    downloaded.collection = "parts";
+    downloaded.id = "downloaded";
+    ASSERT_TRUE(server_->engine()
+                    .AddShape(downloaded,
+                              TorusOff() + std::string(kDownloadBytes, '\n'))
+                    .ok());
   }
 
   std::vector<Kind> Kinds() {
@@ -123,7 +136,9 @@ class CancellationTest : public testing::Test {
             {"CreateShape", [this] { return Create(); }},
             {"UploadShape", [this] { return Upload(); }},
             {"IngestShapes", [this] { return Ingest(); }},
+            {"DownloadMesh", [this] { return Download(); }},
             {"ImportShapes", [this] { return Import(); }},
+            {"ReindexCollection", [this] { return Reindex(); }},
             {"CreateSnapshot", [this] { return Snapshot(); }},
             {"VerifyStorage", [this] { return Verify(); }}};
   }
@@ -276,6 +291,18 @@ class CancellationTest : public testing::Test {
         });
   }
 
+  Call Download() {
+    return Background([this](grpc::ClientContext* context) {
+      v1::DownloadMeshRequest request;
+      request.set_name(std::string(kParts) + "/shapes/downloaded");
+      const auto reader = server_->shapes().DownloadMesh(context, request);
+      v1::DownloadMeshResponse response;
+      while (reader->Read(&response)) {
+      }
+      return reader->Finish();
+    });
+  }
+
   // An operation that has been started.
   Call Started(const grpc::Status& status, const Operation& operation) {
     EXPECT_TRUE(status.ok()) << ErrorOf(status);
@@ -295,6 +322,19 @@ class CancellationTest : public testing::Test {
     Operation operation;
     const grpc::Status status =
         server_->ingest().ImportShapes(&context, request, &operation);
+    return Started(status, operation);
+  }
+
+  // With settings that the collection has not.
+  Call Reindex() {
+    v1::ReindexCollectionRequest request;
+    request.set_name("collections/reindexed");
+    request.mutable_settings()->set_vertex_budget(
+        static_cast<int32_t>(1000 + next_++));
+    grpc::ClientContext context;
+    Operation operation;
+    const grpc::Status status =
+        server_->collections().ReindexCollection(&context, request, &operation);
     return Started(status, operation);
   }
 
@@ -378,7 +418,7 @@ TEST_F(CancellationTest, StopsTheWorkAndLeavesNothing) {
     kind.typical_milliseconds = MillisecondsSince(begin);
     ASSERT_TRUE(BecomesIdle());
   }
-  const uint64_t calls = EnvironmentNumber(kCalls, 33);
+  const uint64_t calls = EnvironmentNumber(kCalls, 39);
   int64_t before = 0;
   for (uint64_t i = 0; i < calls; ++i) {
     // Caches and the allocator have what they keep by then.
