@@ -75,7 +75,7 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
   ARGMESH_RETURN_IF_ERROR(CheckOptions(options));
   auto parts =
       std::make_unique<Parts>(options, std::move(catalog), std::move(meshes));
-  parts->startup = std::jthread([&p = *parts](std::stop_token stop) {
+  parts->startup = std::jthread([&p = *parts](const std::stop_token& stop) {
     const StopToken token(stop, absl::InfiniteFuture());
     p.gallery.Load(token);
     // Nothing waits for the sweeps; what they leave goes at the next start.
