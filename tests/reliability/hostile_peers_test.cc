@@ -2,10 +2,14 @@
 // memory stays bounded, others are answered meanwhile, and it serves after.
 //
 // ARGMESH_HOSTILE_PEERS connections of the kinds that are many, 2,000 when not
-// set; ARGMESH_SLOW_PEER_SECONDS of the slow kinds, 1.
+// set; ARGMESH_SLOW_PEER_SECONDS of the slow kinds, 1. ARGMESH_HOSTILE_RATIO is
+// how many times slower others may become at their p99; when it is not set,
+// only so much that they are still served.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -33,11 +37,13 @@ constexpr int64_t kMebibyte = 1 << 20;
 constexpr int kStreams = 128;  // of a connection, as the server allows
 constexpr size_t kMaxMessage = 4 << 20;
 constexpr uint32_t kLargeWindow = 1 << 30;
-constexpr auto kBaseline = milliseconds(300);
-// Other clients may become slower, also by what the test itself takes of the
-// machine, but not by so much.
+constexpr auto kBaseline = seconds(1);
+constexpr auto kAftermath = milliseconds(300);
+// Of a machine that others use too. Of one for the test alone
+// ARGMESH_HOSTILE_RATIO says the times.
 constexpr double kSlowerTimes = 50;
 constexpr double kSlowerMilliseconds = 2000;
+constexpr double kNoticedMilliseconds = 10;
 // A peer that neither sends nor takes anything is cut after it.
 constexpr char kIdleTimeout[] = "2";
 
@@ -53,6 +59,20 @@ uint64_t ManyPeers() {
 }
 seconds SlowPeerTime() {
   return seconds(EnvironmentNumber("ARGMESH_SLOW_PEER_SECONDS", 1));
+}
+
+// What others' p99 may be that was `before` without the peers.
+double SlowestP99(double before) {
+  const auto ratio =
+      static_cast<double>(EnvironmentNumber("ARGMESH_HOSTILE_RATIO", 0));
+  return ratio > 0 ? std::max(ratio * before, before + kNoticedMilliseconds)
+                   : kSlowerTimes * before + kSlowerMilliseconds;
+}
+
+// Of this thread and those that it starts. Peers stand for other machines: they
+// must not take the CPU of the server and of the others.
+void TakeLowestPriority() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 19);
 }
 
 uint32_t StreamId(int n) { return static_cast<uint32_t>(2 * n + 1); }
@@ -172,19 +192,23 @@ class HostilePeersTest : public testing::Test {
   void Endure(const char* what, int64_t allowed_bytes, Attack&& attack) {
     Before();
     const auto watch = Watch();
-    attack();
-    std::this_thread::sleep_for(kBaseline);
+    std::thread([&attack] {
+      TakeLowestPriority();
+      attack();
+    }).join();
+    std::this_thread::sleep_for(kAftermath);
     const Testimony during = watch->Take();
     const int64_t growth = PeakBytes(service_->pid()) - resident_before_;
     std::printf(
-        "measured: %s: +%lld MiB, others' p99 %.0f ms, before %.0f ms, %zu "
-        "answered, %d not\n",
+        "measured: %s: +%lld MiB, others' p99 %.1f ms, before %.1f ms, %.1f "
+        "times, %zu answered, %d not\n",
         what, static_cast<long long>(growth / kMebibyte), during.p99(),
-        before_.p99(), during.milliseconds.size(), during.failed);
+        before_.p99(), during.p99() / before_.p99(), during.milliseconds.size(),
+        during.failed);
     EXPECT_LT(growth / kMebibyte, allowed_bytes / kMebibyte);
     EXPECT_EQ(during.failed, 0) << during.failure;
     EXPECT_FALSE(during.milliseconds.empty());
-    EXPECT_LT(during.p99(), kSlowerTimes * before_.p99() + kSlowerMilliseconds);
+    EXPECT_LE(during.p99(), SlowestP99(before_.p99()));
     ExpectServes();
   }
 
