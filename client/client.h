@@ -33,6 +33,7 @@
 #include "argmesh/v1/shape_service.pb.h"
 #include "client/client_options.h"
 #include "client/operation_watch.h"
+#include "google/longrunning/operations.pb.h"
 
 namespace argmesh {
 
@@ -113,6 +114,12 @@ class Client {
       const OperationWatch& watch = {});
   absl::StatusOr<v1::ImportShapesResponse> ImportShapes(
       const v1::ImportShapesRequest& request, const OperationWatch& watch = {});
+
+  // What the server has of these and of snapshots and checks, by id: running
+  // and ended, whoever asked for it.
+  absl::StatusOr<std::vector<google::longrunning::Operation>> ListOperations();
+  // `operations/{id}` ends soon with kCancelled. Does not wait for that.
+  absl::Status CancelOperation(const std::string& name);
 
   // --- the server ----------------------------------------------------------
   absl::StatusOr<v1::GetServerInfoResponse> GetServerInfo();

@@ -1,4 +1,4 @@
-// Snapshots and checks of Client.
+// Snapshots, checks and operations of Client.
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -55,6 +55,28 @@ absl::StatusOr<std::vector<v1::Snapshot>> Client::ListSnapshots() {
     request.set_page_token(page.next_page_token());
   } while (!request.page_token().empty());
   return snapshots;
+}
+
+absl::StatusOr<std::vector<Operation>> Client::ListOperations() {
+  std::vector<Operation> operations;
+  google::longrunning::ListOperationsRequest request;
+  do {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const auto page,
+        parts_->Call<google::longrunning::ListOperationsResponse>(
+            Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
+              return parts_->operations->ListOperations(context, request,
+                                                        response);
+            }));
+    operations.insert(operations.end(), page.operations().begin(),
+                      page.operations().end());
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return operations;
+}
+
+absl::Status Client::CancelOperation(const std::string& name) {
+  return RequestCancel(*parts_, name);
 }
 
 absl::Status Client::DeleteSnapshot(std::string_view name) {

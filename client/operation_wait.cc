@@ -12,7 +12,16 @@ using google::longrunning::Operation;
 constexpr int kWaitMilliseconds = 5000;
 constexpr int kWatchMilliseconds = 250;
 
-absl::Status Cancel(Client::Parts& parts, const std::string& name) {
+void Tell(const Operation& operation, const OperationWatch& watch) {
+  v1::OperationMetadata metadata;
+  if (watch.progress && operation.metadata().UnpackTo(&metadata)) {
+    watch.progress(metadata);
+  }
+}
+
+}  // namespace
+
+absl::Status RequestCancel(Client::Parts& parts, const std::string& name) {
   google::longrunning::CancelOperationRequest request;
   request.set_name(name);
   return parts
@@ -25,15 +34,6 @@ absl::Status Cancel(Client::Parts& parts, const std::string& name) {
       .status();
 }
 
-void Tell(const Operation& operation, const OperationWatch& watch) {
-  v1::OperationMetadata metadata;
-  if (watch.progress && operation.metadata().UnpackTo(&metadata)) {
-    watch.progress(metadata);
-  }
-}
-
-}  // namespace
-
 absl::StatusOr<Operation> AwaitEnd(Client::Parts& parts, Operation operation,
                                    const OperationWatch& watch) {
   google::longrunning::WaitOperationRequest request;
@@ -44,7 +44,7 @@ absl::StatusOr<Operation> AwaitEnd(Client::Parts& parts, Operation operation,
   bool cancelled = false;
   while (!operation.done()) {
     if (watch.stop.stop_requested() && !cancelled) {
-      ARGMESH_RETURN_IF_ERROR(Cancel(parts, operation.name()));
+      ARGMESH_RETURN_IF_ERROR(RequestCancel(parts, operation.name()));
       cancelled = true;
     }
     ARGMESH_ASSIGN_OR_RETURN(

@@ -1,12 +1,19 @@
-// Waiting for a long-running operation; only the client library includes this.
+// Waiting for a long-running operation, and ending one; only the client library
+// includes this.
 #ifndef ARGMESH_CLIENT_OPERATION_WAIT_H_
 #define ARGMESH_CLIENT_OPERATION_WAIT_H_
 
+#include <string>
+
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/client.h"
 #include "client/client_parts.h"
 
 namespace argmesh {
+
+// Asks for its end, and does not wait for it.
+absl::Status RequestCancel(Client::Parts& parts, const std::string& name);
 
 // The operation when it is done.
 absl::StatusOr<google::longrunning::Operation> AwaitEnd(

@@ -80,6 +80,7 @@ void AddCommands(CLI::App& app, CommandSet& commands) {
   AddSampleCommand(app, commands);
   AddInfoCommand(app, commands);
   AddAdminCommands(app, commands);
+  AddOperationsCommands(app, commands);
   AddKeysCommands(app, commands);
   AddHealthCommand(app, commands);
   AddCompletionCommand(app, commands);

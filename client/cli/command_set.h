@@ -58,6 +58,7 @@ void AddPictureCommands(CLI::App& app, CommandSet& commands);
 void AddSampleCommand(CLI::App& app, CommandSet& commands);
 void AddInfoCommand(CLI::App& app, CommandSet& commands);
 void AddAdminCommands(CLI::App& app, CommandSet& commands);
+void AddOperationsCommands(CLI::App& app, CommandSet& commands);
 void AddKeysCommands(CLI::App& app, CommandSet& commands);
 void AddHealthCommand(CLI::App& app, CommandSet& commands);
 void AddCompletionCommand(CLI::App& app, CommandSet& commands);

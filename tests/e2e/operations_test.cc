@@ -1,9 +1,12 @@
-// Commands that follow an operation of the server: import and reindex.
+// Commands that follow an operation of the server, import and reindex, and
+// those that list and cancel operations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
 
+#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -109,6 +112,44 @@ TEST_F(OperationsTest, ReindexIsCancelledByCtrlC) {
       installation_.Run({"reindex", "c", "--vertex-budget", "700"});
   EXPECT_EQ(smaller.exit_code, 0) << smaller.err;
   EXPECT_EQ(budget(), 700);
+}
+
+TEST_F(OperationsTest, AreListedAndCancelledByOthers) {
+  ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
+  const auto list = [this] {
+    std::map<std::string, nlohmann::ordered_json> by_method;
+    const CommandOutcome outcome =
+        installation_.Run({"operations", "list", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const auto& operation : outcome.Json()["operations"]) {
+      by_method[operation["method"]] = operation;
+    }
+    return by_method;
+  };
+  auto operations = list();
+  ASSERT_EQ(operations.size(), 1U);
+  const auto import = operations["IngestService.ImportShapes"];
+  EXPECT_EQ(import["state"], "done");
+  EXPECT_EQ(import["resource"], "collections/c");
+  EXPECT_EQ(import["items_done"], 4);
+
+  const std::string method = "CollectionService.ReindexCollection";
+  ChildProcess reindex =
+      installation_.Start({"reindex", "c", "--vertex-budget", "60000"});
+  ASSERT_TRUE(installation_.WaitForLog(method));
+  EXPECT_EQ(list()[method]["state"], "running");
+  const std::string id = list()[method]["operation"];
+  const CommandOutcome cancel = installation_.Run({"operations", "cancel", id});
+  EXPECT_EQ(cancel.exit_code, 0) << cancel.err;
+  EXPECT_NE(reindex.Wait(), 0);
+  EXPECT_EQ(list()[method]["state"], "cancelled");
+  EXPECT_THAT(installation_.Run({"operations", "list"}).out,
+              HasSubstr("cancelled"));
+
+  const CommandOutcome none = installation_.Run(
+      {"operations", "cancel", "00000000-0000-4000-8000-000000000000"});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("OPERATION_NOT_FOUND"));
 }
 
 TEST_F(OperationsTest, ReindexGivesACollectionOtherSettings) {

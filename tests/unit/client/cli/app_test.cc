@@ -56,6 +56,8 @@ TEST(RunArgmesh, HelpsWithEveryCommand) {
       {"picture", "ply", "--help"},
       {"sample", "--help"},
       {"info", "--help"},
+      {"operations", "list", "--help"},
+      {"operations", "cancel", "--help"},
       {"health", "--help"},
       {"completion", "--help"}};
   for (const auto& command : commands) {
