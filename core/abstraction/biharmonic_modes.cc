@@ -20,14 +20,14 @@ constexpr double kMinDiameter = 1e-3;
 // Distance", ACM TOG 29(3), 2010), and log shape diameter.
 absl::StatusOr<Eigen::MatrixXd> EmbedSamples(
     const DecompositionInput& input, const std::vector<double>& conductances,
-    const BiharmonicOptions& options) {
+    const BiharmonicOptions& options, const StopToken& stop) {
   const int n = input.samples.num_vertices();
   const int count = std::min(options.eigenvectors, n - 3);
   if (count < 1) return Eigen::MatrixXd::Zero(1, n);
   ARGMESH_ASSIGN_OR_RETURN(
       const Spectrum spectrum,
       ComputeSpectrum(BuildLaplacian(input.edge_graph, conductances),
-                      input.features.areas, count + 1));
+                      input.features.areas, count + 1, stop));
   Eigen::MatrixXd joint(count + 1, n);
   for (int k = 0; k < count; ++k) {
     joint.row(k) = spectrum.vectors.col(k + 1).transpose() /
@@ -74,8 +74,9 @@ absl::StatusOr<FirstStage> FindBiharmonicModes(const DecompositionInput& input,
   FirstStage stage;
   stage.link_weights = ComputeConductances(input.samples, input.features,
                                            input.edge_graph, options);
-  ARGMESH_ASSIGN_OR_RETURN(const Eigen::MatrixXd joint,
-                           EmbedSamples(input, stage.link_weights, options));
+  ARGMESH_ASSIGN_OR_RETURN(
+      const Eigen::MatrixXd joint,
+      EmbedSamples(input, stage.link_weights, options, stop));
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   const SuperSamples super =
       MakeSuperSamples(input, joint, options.super_samples);

@@ -51,7 +51,7 @@ absl::StatusOr<SurfaceFeatures> ComputeSurfaceFeatures(
   ARGMESH_ASSIGN_OR_RETURN(
       const Spectrum spectrum,
       ComputeSpectrum(BuildLaplacian(geodesic_graph, weights), features.areas,
-                      count));
+                      count, stop));
   features.wave_kernel = ComputeWaveKernelSignature(spectrum);
   return features;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -34,13 +35,20 @@ constexpr int kSmallSize = 100;
 constexpr int kMaxPasses = 64;
 constexpr uint64_t kStartSeed = 0x5eed;
 
+// How an iteration that knows no other way out ends early.
+struct Stopped : std::exception {
+  explicit Stopped(absl::Status why) : status(std::move(why)) {}
+  absl::Status status;
+};
+
 // (S - shift)^-1 on the complement of `locked`, as Spectra wants it.
 class ShiftInverse {
  public:
   using Scalar = double;
 
-  ShiftInverse(const SparseMatrix& symmetric, const Eigen::MatrixXd& locked)
-      : symmetric_(symmetric), locked_(locked) {}
+  ShiftInverse(const SparseMatrix& symmetric, const Eigen::MatrixXd& locked,
+               const StopToken& stop)
+      : symmetric_(symmetric), locked_(locked), stop_(stop) {}
 
   Eigen::Index rows() const { return symmetric_.rows(); }
   Eigen::Index cols() const { return symmetric_.cols(); }
@@ -53,6 +61,9 @@ class ShiftInverse {
 
   // NOLINTNEXTLINE(readability-identifier-naming): called by Spectra.
   void perform_op(const double* in, double* out) const {
+    if (absl::Status status = stop_.Check(); !status.ok()) {
+      throw Stopped(std::move(status));
+    }
     Eigen::Map<const Eigen::VectorXd> x(in, rows());
     Eigen::Map<Eigen::VectorXd> y(out, rows());
     y = factors_.solve(x);
@@ -64,6 +75,7 @@ class ShiftInverse {
  private:
   const SparseMatrix& symmetric_;
   const Eigen::MatrixXd& locked_;
+  const StopToken& stop_;
   Eigen::SimplicialLDLT<SparseMatrix> factors_;
 };
 
@@ -103,13 +115,14 @@ Spectrum Merge(const Spectrum& a, const Spectrum& b, Eigen::Index count) {
 // vector of every eigenspace.
 std::optional<Spectrum> SolveLanczos(const SparseMatrix& symmetric,
                                      const Eigen::MatrixXd& locked, int count,
-                                     double shift, uint64_t seed) {
+                                     double shift, uint64_t seed,
+                                     const StopToken& stop) {
   const Eigen::Index n = symmetric.rows();
   Random random(seed);
   Eigen::VectorXd start(n);
   for (Eigen::Index i = 0; i < n; ++i) start[i] = random.Uniform(-1, 1);
   if (locked.cols() > 0) start -= locked * (locked.transpose() * start).eval();
-  ShiftInverse op(symmetric, locked);
+  ShiftInverse op(symmetric, locked, stop);
   for (const int spare : {kSpareVectors, kSpareVectors + 3 * count}) {
     const auto basis_size = std::min<Eigen::Index>(n, count + spare);
     Spectra::SymEigsShiftSolver<ShiftInverse> solver(op, count, basis_size,
@@ -136,9 +149,10 @@ std::optional<int> CountBelow(const SparseMatrix& symmetric, double limit) {
 // a multiple eigenvalue (any symmetric shape has some) only by rounding. So
 // the pairs are counted, and missing ones are looked for in the complement.
 std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
-                                      double shift) {
+                                      double shift, const StopToken& stop) {
   uint64_t seed = kStartSeed;
-  auto found = SolveLanczos(symmetric, Eigen::MatrixXd(), count, shift, seed);
+  auto found =
+      SolveLanczos(symmetric, Eigen::MatrixXd(), count, shift, seed, stop);
   for (int pass = 0; found && pass < kMaxPasses; ++pass) {
     // Below a cluster at the end of the list, of which some are not wanted.
     const double last = found->values[count - 1];
@@ -150,7 +164,7 @@ std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
     if (*expected <= known) return found;
     const auto copies =
         SolveLanczos(symmetric, found->vectors,
-                     std::min(*expected - known, count), shift, ++seed);
+                     std::min(*expected - known, count), shift, ++seed, stop);
     if (!copies) return std::nullopt;
     found = Merge(*found, *copies, count);
   }
@@ -158,12 +172,15 @@ std::optional<Spectrum> SolveComplete(const SparseMatrix& symmetric, int count,
 }
 
 absl::StatusOr<Spectrum> SolveSymmetric(const SparseMatrix& symmetric,
-                                        int count, double shift) {
+                                        int count, double shift,
+                                        const StopToken& stop) {
   const auto n = static_cast<int>(symmetric.rows());
   if (n <= kSmallSize || n < 3 * count) return SolveDense(symmetric, count);
   try {
-    auto pairs = SolveComplete(symmetric, count, shift);
+    auto pairs = SolveComplete(symmetric, count, shift, stop);
     if (pairs) return *std::move(pairs);
+  } catch (const Stopped& stopped) {
+    return stopped.status;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -178,7 +195,7 @@ absl::StatusOr<Spectrum> SolveSymmetric(const SparseMatrix& symmetric,
 
 absl::StatusOr<Spectrum> ComputeSpectrum(const SparseMatrix& laplacian,
                                          const Eigen::VectorXd& areas,
-                                         int count) {
+                                         int count, const StopToken& stop) {
   const Eigen::Index n = laplacian.rows();
   if (laplacian.cols() != n || areas.size() != n) {
     return absl::InvalidArgumentError(
@@ -197,7 +214,7 @@ absl::StatusOr<Spectrum> ComputeSpectrum(const SparseMatrix& laplacian,
       areas.cwiseMax(kMinAreaShare * total).cwiseSqrt().cwiseInverse();
   const SparseMatrix symmetric =
       scale.asDiagonal() * laplacian * scale.asDiagonal();
-  auto pairs = SolveSymmetric(symmetric, count, kShift / total);
+  auto pairs = SolveSymmetric(symmetric, count, kShift / total, stop);
   if (!pairs.ok()) return pairs.status();
   pairs->vectors = scale.asDiagonal() * pairs->vectors;
   return pairs;

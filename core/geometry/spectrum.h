@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
 #include "core/geometry/surface_graph.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -40,10 +41,11 @@ struct Spectrum {
 //
 // Fails    kInvalidArgument  count out of range
 //          kInternal         not converged
+//          kCancelled, kDeadlineExceeded  within one factorisation
 // Cost     one sparse factorisation and O(count^2 n).
 absl::StatusOr<Spectrum> ComputeSpectrum(
     const Eigen::SparseMatrix<double>& laplacian, const Eigen::VectorXd& areas,
-    int count);
+    int count, const StopToken& stop = {});
 
 struct WaveKernelOptions {
   int num_energies = 16;     // >= 2

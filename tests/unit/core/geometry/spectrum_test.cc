@@ -272,6 +272,15 @@ TEST(ComputeSpectrum, RefusesWhatItCannotAnswer) {
   }
 }
 
+TEST(ComputeSpectrum, StopsWhenToldTo) {
+  const Operator op = MakeOperator(MakeTorus(1, 0.4, 60, 30));
+  EXPECT_EQ(ComputeSpectrum(op.laplacian, op.areas, 40,
+                            StopToken({}, absl::InfinitePast()))
+                .status()
+                .code(),
+            absl::StatusCode::kDeadlineExceeded);
+}
+
 TEST(ComputeWaveKernelSignature, IsOneOnAverageAndConstantOnASphere) {
   const TriangleMesh mesh = UnitArea(MakeIrregularSphere(14, 1, 58));
   // 49 pairs are whole eigenspaces: l = 0 .. 6.
