@@ -121,7 +121,8 @@ TEST_F(OperationsTest, AreListedAndCancelledByOthers) {
     const CommandOutcome outcome =
         installation_.Run({"operations", "list", "--json"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const auto& operation : outcome.Json()["operations"]) {
+    const nlohmann::ordered_json json = outcome.Json();
+    for (const auto& operation : json["operations"]) {
       by_method[operation["method"]] = operation;
     }
     return by_method;
