@@ -175,7 +175,7 @@ absl::StatusOr<ContainingShape> ContainmentRanker::Match(
   WindowIndex alone;
   alone.Set(0, AssignWindowWords(pair.target));
   // Borrowed for the call.
-  const std::shared_ptr<const TargetWindows> target(
+  std::shared_ptr<const TargetWindows> target(
       std::shared_ptr<const TargetWindows>(), &pair.target);
   ARGMESH_ASSIGN_OR_RETURN(
       ContainmentRanking ranking,
