@@ -321,7 +321,7 @@ TEST_F(HostilePeersTest, IdleStreams) {
              const char* path = i % 2 == 0 ? kUpload : kGetShape;
              EXPECT_TRUE(peers.back().Send(Http2Call(StreamId(n), path)));
            }
-           std::this_thread::sleep_for(seconds(1));
+           std::this_thread::sleep_for(SlowPeerTime());
          });
 }
 
@@ -340,7 +340,7 @@ TEST_F(HostilePeersTest, IdleConnections) {
              }
            }
            EXPECT_EQ(connected, count);
-           std::this_thread::sleep_for(seconds(1));
+           std::this_thread::sleep_for(SlowPeerTime());
            EXPECT_EQ(service_->Caller().Get("torus-0"), "");
          });
 }
