@@ -32,7 +32,6 @@ class MeshMemory {
                                         absl::Duration max_wait,
                                         const StopToken& stop);
 
-  int64_t budget() const { return budget_; }
   int64_t claimed() const;
 
  private:

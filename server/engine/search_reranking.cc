@@ -42,14 +42,18 @@ Eigen::MatrixXd PairScores(ComputePool& pool, const StopToken& stop,
   return scores;
 }
 
-// `order[i]` becomes the i-th.
-template <typename Shape>
-void PutInOrder(const std::vector<int>& order, std::vector<Shape>& shapes) {
+// The first `count` by their keys, descending; equal ones stay as they were.
+template <typename Keys, typename Shape>
+void OrderByKeys(const Keys& keys, size_t count, std::vector<Shape>& shapes) {
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    using Index = decltype(keys.size());
+    return keys[static_cast<Index>(a)] > keys[static_cast<Index>(b)];
+  });
   std::vector<Shape> ordered;
-  ordered.reserve(order.size());
-  for (const int i : order) {
-    ordered.push_back(std::move(shapes[static_cast<size_t>(i)]));
-  }
+  ordered.reserve(count);
+  for (const size_t i : order) ordered.push_back(std::move(shapes[i]));
   std::move(ordered.begin(), ordered.end(), shapes.begin());
 }
 
@@ -63,11 +67,7 @@ absl::Status RerankShapes(ComputePool& pool, const StopToken& stop,
   ARGMESH_RETURN_IF_ERROR(stop.Check());
   ARGMESH_ASSIGN_OR_RETURN(const Eigen::VectorXd reranked,
                            RerankShortList(scores));
-  std::vector<int> order(static_cast<size_t>(count));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return reranked[a] > reranked[b]; });
-  PutInOrder(order, shapes);
+  OrderByKeys(reranked, static_cast<size_t>(count), shapes);
   return absl::OkStatus();
 }
 
@@ -92,12 +92,7 @@ absl::Status RerankContaining(ComputePool& pool, const StopToken& stop,
         keys[at] = shapes[at].score + kVouchWeight * word;
       });
   ARGMESH_RETURN_IF_ERROR(stop.Check());
-  std::vector<int> order(shapes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return keys[static_cast<size_t>(a)] > keys[static_cast<size_t>(b)];
-  });
-  PutInOrder(order, shapes);
+  OrderByKeys(keys, shapes.size(), shapes);
   return absl::OkStatus();
 }
 
