@@ -146,19 +146,20 @@ absl::Status Client::ForEachCollection(
 }
 
 absl::StatusOr<v1::Collection> Client::UpdateCollection(
-    const v1::UpdateCollectionRequest& request) {
+    v1::UpdateCollectionRequest request) {
+  FillRequestId(request);
   return parts_->Call<v1::Collection>(
-      Repeat::kNever, [&](grpc::ClientContext* context, auto* response) {
+      Repeat::kSafe, [&](grpc::ClientContext* context, auto* response) {
         return parts_->collections->UpdateCollection(context, request,
                                                      response);
       });
 }
 
-absl::Status Client::DeleteCollection(
-    const v1::DeleteCollectionRequest& request) {
+absl::Status Client::DeleteCollection(v1::DeleteCollectionRequest request) {
+  FillRequestId(request);
   return parts_
       ->Call<v1::DeleteCollectionResponse>(
-          Repeat::kNever,
+          Repeat::kSafe,
           [&](grpc::ClientContext* context, auto* response) {
             return parts_->collections->DeleteCollection(context, request,
                                                          response);

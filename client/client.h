@@ -74,8 +74,8 @@ class Client {
   absl::Status ForEachCollection(
       const std::function<bool(const v1::Collection&)>& visit);
   absl::StatusOr<v1::Collection> UpdateCollection(
-      const v1::UpdateCollectionRequest& request);
-  absl::Status DeleteCollection(const v1::DeleteCollectionRequest& request);
+      v1::UpdateCollectionRequest request);
+  absl::Status DeleteCollection(v1::DeleteCollectionRequest request);
 
   // --- shapes --------------------------------------------------------------
   absl::StatusOr<v1::Shape> CreateShape(v1::CreateShapeRequest request);

@@ -37,11 +37,11 @@ class Catalog {
   // kCollectionExists, kRequestIdReused. `record` comes with id, uid, times.
   virtual absl::StatusOr<CollectionRecord> InsertCollection(
       const CollectionRecord& record, const RequestStamp& request) = 0;
-  // kCollectionNotFound, kEtagMismatch; kFieldInvalid when a stored shape has a
-  // value that is not of its newly declared type.
+  // kCollectionNotFound, kEtagMismatch, kRequestIdReused; kFieldInvalid when a
+  // stored shape has a value that is not of its newly declared type.
   virtual absl::StatusOr<CollectionRecord> UpdateCollection(
       const CollectionPatch& patch) = 0;
-  // kCollectionNotFound, kCollectionNotEmpty, kEtagMismatch.
+  // kCollectionNotFound, kCollectionNotEmpty, kEtagMismatch, kRequestIdReused.
   virtual absl::StatusOr<CollectionDeleted> DeleteCollection(
       const CollectionDelete& removal) = 0;
   // kCollectionNotFound.
@@ -57,14 +57,15 @@ class Catalog {
   // (CheckDeclaredValues), kGraphVersionMismatch (the collection has other
   // settings than the graph was made with).
   virtual absl::StatusOr<ShapeWritten> PutShape(const ShapePut& put) = 0;
-  // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kFieldInvalid.
+  // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kRequestIdReused,
+  // kFieldInvalid.
   virtual absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) = 0;
   // kCollectionNotFound, kShapeNotFound, kEtagMismatch, kRequestIdReused.
   virtual absl::StatusOr<ShapeDeleted> DeleteShape(
       const ShapeDelete& removal) = 0;
-  // All of `ids`, or none. kCollectionNotFound, kShapeNotFound.
+  // All, or none. kCollectionNotFound, kShapeNotFound, kRequestIdReused.
   virtual absl::StatusOr<ShapeDeleted> DeleteShapes(
-      std::string_view collection, const std::vector<std::string>& ids) = 0;
+      const ShapesDelete& removal) = 0;
   // kCollectionNotFound, kShapeNotFound.
   virtual absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                                std::string_view id) const = 0;

@@ -34,12 +34,14 @@ struct CollectionPatch {
   std::optional<uint32_t> graph_version;
   std::string etag;  // empty: any
   absl::Time update_time;
+  RequestStamp request = {};
 };
 
 struct CollectionDelete {
   std::string id;
   bool force = false;  // with its shapes
   std::string etag;    // empty: any
+  RequestStamp request = {};
 };
 
 struct CollectionDeleted {
@@ -100,6 +102,7 @@ struct ShapePatch {
   std::optional<std::map<std::string, std::string>> metadata;
   std::string etag;  // empty: any
   absl::Time update_time;
+  RequestStamp request = {};
 };
 
 struct ShapeDelete {
@@ -107,6 +110,12 @@ struct ShapeDelete {
   std::string id;
   std::string etag;  // empty: any
   RequestStamp request;
+};
+
+struct ShapesDelete {
+  std::string collection;
+  std::vector<std::string> ids;  // each once
+  RequestStamp request = {};
 };
 
 struct ShapeDeleted {

@@ -52,10 +52,12 @@ class Engine {
   absl::StatusOr<CollectionRecord> GetCollection(std::string_view id) const;
   // kPageTokenInvalid.
   absl::StatusOr<CollectionPage> ListCollections(const PageRequest& page) const;
-  // kEtagMismatch. The patch's update_time is set here.
-  absl::StatusOr<CollectionRecord> UpdateCollection(CollectionPatch patch);
-  // kCollectionNotEmpty, kEtagMismatch.
-  absl::Status DeleteCollection(const CollectionDelete& removal);
+  // kEtagMismatch, kRequestIdReused. Time and request are filled in here.
+  absl::StatusOr<CollectionRecord> UpdateCollection(CollectionPatch patch,
+                                                    const RequestKey& key = {});
+  // kCollectionNotEmpty, kEtagMismatch, kRequestIdReused; the same.
+  absl::Status DeleteCollection(CollectionDelete removal,
+                                const RequestKey& key = {});
 
   // --- shapes: also kShapeNotFound -----------------------------------------
   // kMeshTooLarge from the announcement alone.
@@ -72,13 +74,14 @@ class Engine {
   absl::StatusOr<ShapePage> ListShapes(std::string_view collection,
                                        const PageRequest& page,
                                        const std::string& filter = "") const;
-  // kEtagMismatch.
-  absl::StatusOr<ShapeRecord> UpdateShape(ShapePatch patch);
+  // kEtagMismatch, kRequestIdReused. Time and request are filled in here.
+  absl::StatusOr<ShapeRecord> UpdateShape(ShapePatch patch,
+                                          const RequestKey& key = {});
   // The collection's generation after it. kEtagMismatch, kRequestIdReused.
   absl::StatusOr<int64_t> DeleteShape(const ShapeRemoval& removal);
-  // All of `ids`, each once, or none.
-  absl::StatusOr<int64_t> DeleteShapes(const std::string& collection,
-                                       const std::vector<std::string>& ids);
+  // All, or none. kRequestIdReused. The request is filled in here.
+  absl::StatusOr<int64_t> DeleteShapes(ShapesDelete removal,
+                                       const RequestKey& key = {});
   // kMeshNotStored.
   absl::StatusOr<std::unique_ptr<MeshReader>> OpenMesh(
       const ShapeRef& shape) const;

@@ -6,9 +6,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "server/engine/catalog.h"
 #include "server/engine/compute_pool.h"
 #include "server/engine/engine.h"
@@ -30,6 +33,10 @@ class Engine::Parts {
         std::unique_ptr<MeshStore> engine_meshes);
 
   absl::Status CheckOpen() const;  // kDraining
+  // StampRequest, remembered for as long as the options say.
+  absl::StatusOr<RequestStamp> Stamp(
+      const RequestKey& key, std::string_view method,
+      const std::vector<std::string>& fields) const;
   // Index and meshes do without what the catalog has no more; its generation.
   int64_t FollowDeletion(const std::string& collection,
                          const ShapeDeleted& deleted);

@@ -1,5 +1,7 @@
 // The engine's calls that read and change records.
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -20,6 +22,14 @@ namespace {
 // Stored times have microseconds.
 absl::Time NowInMicros() {
   return absl::FromUnixMicros(absl::ToUnixMicros(absl::Now()));
+}
+
+// A field of a request's stamp: one that is empty reads unlike one that is not
+// there.
+template <typename Value, typename Serialize = std::identity>
+std::string OptionalField(const std::optional<Value>& value,
+                          const Serialize& serialize = {}) {
+  return value ? "=" + serialize(*value) : "";
 }
 
 // Cuts `records`, of which one more than a page may hold was read, to a page;
@@ -47,11 +57,10 @@ absl::StatusOr<CollectionRecord> Engine::CreateCollection(
   ARGMESH_RETURN_IF_ERROR(CheckNewCollection(spec));
   ARGMESH_ASSIGN_OR_RETURN(
       const RequestStamp request,
-      StampRequest(spec.request, "CreateCollection",
-                   {spec.id, spec.display_name,
-                    SerializeCollectionSettings(spec.settings),
-                    SerializeMetadataKeys(spec.metadata_keys)},
-                   absl::Now() + parts_->options.request_memory));
+      parts_->Stamp(spec.request, "CreateCollection",
+                    {spec.id, spec.display_name,
+                     SerializeCollectionSettings(spec.settings),
+                     SerializeMetadataKeys(spec.metadata_keys)}));
   CollectionRecord record;
   record.id = spec.id;
   record.uid = MakeUid();
@@ -95,7 +104,7 @@ absl::StatusOr<CollectionPage> Engine::ListCollections(
 }
 
 absl::StatusOr<CollectionRecord> Engine::UpdateCollection(
-    CollectionPatch patch) {
+    CollectionPatch patch, const RequestKey& key) {
   ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", patch.id));
   if (patch.display_name) {
@@ -106,12 +115,23 @@ absl::StatusOr<CollectionRecord> Engine::UpdateCollection(
     ARGMESH_RETURN_IF_ERROR(CheckMetadataKeys(*patch.metadata_keys));
   }
   patch.update_time = NowInMicros();
+  ARGMESH_ASSIGN_OR_RETURN(
+      patch.request,
+      parts_->Stamp(
+          key, "UpdateCollection",
+          {patch.id, patch.etag, OptionalField(patch.display_name),
+           OptionalField(patch.metadata_keys, SerializeMetadataKeys)}));
   return parts_->catalog->UpdateCollection(patch);
 }
 
-absl::Status Engine::DeleteCollection(const CollectionDelete& removal) {
+absl::Status Engine::DeleteCollection(CollectionDelete removal,
+                                      const RequestKey& key) {
   ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
   ARGMESH_RETURN_IF_ERROR(CheckId("collection", removal.id));
+  ARGMESH_ASSIGN_OR_RETURN(
+      removal.request,
+      parts_->Stamp(key, "DeleteCollection",
+                    {removal.id, removal.etag, removal.force ? "force" : ""}));
   CollectionDeleted deleted;
   {
     const auto lock = parts_->gallery.LockCollections();
@@ -150,10 +170,23 @@ absl::StatusOr<ShapePage> Engine::ListShapes(std::string_view collection,
   return answer;
 }
 
-absl::StatusOr<ShapeRecord> Engine::UpdateShape(ShapePatch patch) {
+absl::StatusOr<ShapeRecord> Engine::UpdateShape(ShapePatch patch,
+                                                const RequestKey& key) {
   ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
   ARGMESH_RETURN_IF_ERROR(CheckPatch(patch));
   patch.update_time = NowInMicros();
+  std::vector<std::string> fields = {patch.collection, patch.id, patch.etag,
+                                     OptionalField(patch.display_name),
+                                     OptionalField(patch.source_uri)};
+  if (patch.metadata) {
+    fields.emplace_back("metadata");
+    for (const auto& [name, value] : *patch.metadata) {
+      fields.push_back(name);
+      fields.push_back(value);
+    }
+  }
+  ARGMESH_ASSIGN_OR_RETURN(patch.request,
+                           parts_->Stamp(key, "UpdateShape", fields));
   ARGMESH_ASSIGN_OR_RETURN(ShapeWritten written,
                            parts_->catalog->UpdateShape(patch));
   parts_->gallery.Follow(patch.collection, written.collection_uid,
@@ -170,23 +203,33 @@ absl::StatusOr<int64_t> Engine::DeleteShape(const ShapeRemoval& removal) {
   request.etag = removal.etag;
   ARGMESH_ASSIGN_OR_RETURN(
       request.request,
-      StampRequest(removal.request, "DeleteShape",
-                   {request.collection, request.id, request.etag},
-                   absl::Now() + parts_->options.request_memory));
+      parts_->Stamp(removal.request, "DeleteShape",
+                    {request.collection, request.id, request.etag}));
   ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
                            parts_->catalog->DeleteShape(request));
   return parts_->FollowDeletion(request.collection, deleted);
 }
 
-absl::StatusOr<int64_t> Engine::DeleteShapes(
-    const std::string& collection, const std::vector<std::string>& ids) {
+absl::StatusOr<int64_t> Engine::DeleteShapes(ShapesDelete removal,
+                                             const RequestKey& key) {
   ARGMESH_RETURN_IF_ERROR(parts_->CheckOpen());
-  for (const std::string& id : ids) {
-    ARGMESH_RETURN_IF_ERROR(CheckShapeRef({collection, id}));
+  std::vector<std::string> fields = {removal.collection};
+  for (const std::string& id : removal.ids) {
+    ARGMESH_RETURN_IF_ERROR(CheckShapeRef({removal.collection, id}));
+    fields.push_back(id);
   }
+  ARGMESH_ASSIGN_OR_RETURN(removal.request,
+                           parts_->Stamp(key, "DeleteShapes", fields));
   ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted deleted,
-                           parts_->catalog->DeleteShapes(collection, ids));
-  return parts_->FollowDeletion(collection, deleted);
+                           parts_->catalog->DeleteShapes(removal));
+  return parts_->FollowDeletion(removal.collection, deleted);
+}
+
+absl::StatusOr<RequestStamp> Engine::Parts::Stamp(
+    const RequestKey& key, std::string_view method,
+    const std::vector<std::string>& fields) const {
+  return StampRequest(key, method, fields,
+                      absl::Now() + options.request_memory);
 }
 
 int64_t Engine::Parts::FollowDeletion(const std::string& collection,

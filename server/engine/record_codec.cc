@@ -342,4 +342,19 @@ absl::StatusOr<ShapeDeleted> ParseShapeDeleted(std::string_view bytes) {
   return deleted;
 }
 
+std::string SerializeCollectionDeleted(const CollectionDeleted& deleted) {
+  FieldWriter writer;
+  writer.Field(deleted.uid);
+  return writer.TakeBytes();
+}
+
+absl::StatusOr<CollectionDeleted> ParseCollectionDeleted(
+    std::string_view bytes) {
+  FieldReader reader(bytes, "remembered deletion");
+  CollectionDeleted deleted;
+  reader.Field(deleted.uid);
+  ARGMESH_RETURN_IF_ERROR(reader.Finish());
+  return deleted;
+}
+
 }  // namespace argmesh

@@ -41,6 +41,9 @@ std::string SerializeShapeWritten(const ShapeWritten& written);
 absl::StatusOr<ShapeWritten> ParseShapeWritten(std::string_view bytes);
 std::string SerializeShapeDeleted(const ShapeDeleted& deleted);
 absl::StatusOr<ShapeDeleted> ParseShapeDeleted(std::string_view bytes);
+std::string SerializeCollectionDeleted(const CollectionDeleted& deleted);
+absl::StatusOr<CollectionDeleted> ParseCollectionDeleted(
+    std::string_view bytes);
 
 }  // namespace argmesh
 

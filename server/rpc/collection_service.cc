@@ -70,7 +70,8 @@ absl::Status UpdateCollection(const UnaryCall& call,
   ARGMESH_ASSIGN_OR_RETURN(CollectionPatch patch, FromProto(request));
   ARGMESH_ASSIGN_OR_RETURN(
       const CollectionRecord record,
-      call.environment.engine.UpdateCollection(std::move(patch)));
+      call.environment.engine.UpdateCollection(
+          std::move(patch), {call.caller.principal, request.request_id()}));
   *response = ToProto(record);
   return absl::OkStatus();
 }
@@ -81,7 +82,8 @@ absl::Status DeleteCollection(const UnaryCall& call,
   ARGMESH_ASSIGN_OR_RETURN(const std::string id,
                            ParseCollectionName("name", request.name()));
   return call.environment.engine.DeleteCollection(
-      {.id = id, .force = request.force(), .etag = request.etag()});
+      {.id = id, .force = request.force(), .etag = request.etag()},
+      {call.caller.principal, request.request_id()});
 }
 
 absl::Status ReindexCollection(const UnaryCall& call,

@@ -8,6 +8,7 @@
 #include "server/engine/error_reason.h"
 #include "server/rpc/convert_search.h"
 #include "server/rpc/convert_shape.h"
+#include "server/rpc/measured_search.h"
 #include "server/rpc/resource_name.h"
 #include "server/rpc/status.h"
 #include "server/rpc/stream_search_reactor.h"
@@ -16,11 +17,11 @@ namespace argmesh {
 namespace {
 
 absl::StatusOr<v1::SearchShapesResponse> Search(
-    const Engine& engine, const v1::SearchShapesRequest& request,
+    ServiceEnvironment& environment, const v1::SearchShapesRequest& request,
     int64_t max_bytes, const StopToken& stop) {
   ARGMESH_ASSIGN_OR_RETURN(const SearchQuery query, FromProto(request));
   ARGMESH_ASSIGN_OR_RETURN(const SearchAnswer answer,
-                           engine.Search(query, stop));
+                           MeasuredSearch(environment, query, stop));
   return ToProto(answer, {.mode = query.mode,
                           .explain = request.explain(),
                           .query_graph = request.return_query_graph(),
@@ -56,8 +57,8 @@ bool IsOwnFailure(const absl::Status& status, const StopToken& stop) {
 absl::Status SearchShapes(const UnaryCall& call,
                           const v1::SearchShapesRequest& request,
                           v1::SearchShapesResponse* response) {
-  ARGMESH_ASSIGN_OR_RETURN(*response, Search(call.environment.engine, request,
-                                             kMaxAnswerBytes, call.stop));
+  ARGMESH_ASSIGN_OR_RETURN(
+      *response, Search(call.environment, request, kMaxAnswerBytes, call.stop));
   return absl::OkStatus();
 }
 
@@ -70,7 +71,7 @@ absl::Status BatchSearchShapes(const UnaryCall& call,
     v1::SearchShapesRequest search = request.requests(i);
     search.set_parent(request.parent());
     const int64_t share = bytes_left / (request.requests_size() - i);
-    auto found = Search(call.environment.engine, search, share, call.stop);
+    auto found = Search(call.environment, search, share, call.stop);
     if (found.ok() && static_cast<int64_t>(found->ByteSizeLong()) > share) {
       found = MakeError(ErrorReason::kResponseTooLarge,
                         "the answer does not fit beside those of the others");

@@ -68,7 +68,8 @@ absl::Status UpdateShape(const UnaryCall& call,
   ARGMESH_ASSIGN_OR_RETURN(ShapePatch patch, FromProto(request));
   ARGMESH_ASSIGN_OR_RETURN(
       const ShapeRecord record,
-      call.environment.engine.UpdateShape(std::move(patch)));
+      call.environment.engine.UpdateShape(
+          std::move(patch), {call.caller.principal, request.request_id()}));
   *response = ToProto(record);
   return absl::OkStatus();
 }
@@ -135,7 +136,9 @@ absl::Status BatchDeleteShapes(const UnaryCall& call,
                                v1::BatchDeleteShapesResponse* response) {
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<ShapeRef> shapes,
                            NamedShapes(request));
-  std::vector<std::string> ids;
+  ShapesDelete removal;
+  removal.collection = shapes.front().collection;
+  std::vector<std::string>& ids = removal.ids;
   ids.reserve(shapes.size());
   for (const ShapeRef& shape : shapes) ids.push_back(shape.id);
   std::sort(ids.begin(), ids.end());
@@ -146,7 +149,8 @@ absl::Status BatchDeleteShapes(const UnaryCall& call,
   ARGMESH_RETURN_IF_ERROR(call.stop.Check());
   ARGMESH_ASSIGN_OR_RETURN(
       const int64_t generation,
-      call.environment.engine.DeleteShapes(shapes.front().collection, ids));
+      call.environment.engine.DeleteShapes(
+          std::move(removal), {call.caller.principal, request.request_id()}));
   response->set_generation(generation);
   return absl::OkStatus();
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/status_macros.h"
 #include "server/rpc/convert_match.h"
+#include "server/rpc/measured_search.h"
 
 namespace argmesh {
 
@@ -38,7 +39,7 @@ absl::Status StreamSearchReactor::Take(std::unique_ptr<StagedMesh> mesh) {
                            mesh->ReadAll());
   mesh.reset();
   ARGMESH_ASSIGN_OR_RETURN(const SearchAnswer answer,
-                           engine().Search(query_, stop()));
+                           MeasuredSearch(environment(), query_, stop()));
   query_ = {};
   Prepare(answer);
   // Who takes the answer slowly takes no place of a search meanwhile.

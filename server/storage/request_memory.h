@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/base/status_macros.h"
 #include "server/engine/catalog_requests.h"
 #include "server/storage/sqlite_connection.h"
 
@@ -22,6 +23,22 @@ absl::StatusOr<std::optional<std::string>> RecallRequest(
 absl::Status RememberRequest(SqliteConnection& connection,
                              const RequestStamp& request,
                              std::string_view answer);
+
+// What `write` answers, remembered with it; for a request that was made before
+// the remembered answer.
+template <typename Answer, typename Write>
+absl::StatusOr<Answer> WriteOnce(
+    SqliteConnection& connection, const RequestStamp& request,
+    absl::StatusOr<Answer> (*parse)(std::string_view),
+    std::string (*serialize)(const Answer&), const Write& write) {
+  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
+                           RecallRequest(connection, request));
+  if (answer) return parse(*answer);
+  ARGMESH_ASSIGN_OR_RETURN(Answer written, write());
+  ARGMESH_RETURN_IF_ERROR(
+      RememberRequest(connection, request, serialize(written)));
+  return written;
+}
 
 }  // namespace argmesh
 

@@ -52,8 +52,7 @@ class SqliteCatalog : public Catalog {
   absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) override;
   absl::StatusOr<ShapeDeleted> DeleteShape(const ShapeDelete& removal) override;
   absl::StatusOr<ShapeDeleted> DeleteShapes(
-      std::string_view collection,
-      const std::vector<std::string>& ids) override;
+      const ShapesDelete& removal) override;
   absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                        std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeRecord>> ListShapes(

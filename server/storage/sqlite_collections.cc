@@ -16,11 +16,7 @@ namespace {
 constexpr int64_t kCollectionBytes = 1024;
 
 absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
-                                        const CollectionRecord& record,
-                                        const RequestStamp& request) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
-                           RecallRequest(connection, request));
-  if (answer) return ParseCollectionRecord(*answer);
+                                        const CollectionRecord& record) {
   const absl::StatusOr<CollectionRow> taken =
       FindCollectionRow(connection, record.id);
   if (taken.ok()) return CollectionExistsError(record.id);
@@ -39,8 +35,6 @@ absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
           .status());
   ARGMESH_ASSIGN_OR_RETURN(CollectionRow inserted,
                            FindCollectionRow(connection, record.id));
-  ARGMESH_RETURN_IF_ERROR(RememberRequest(
-      connection, request, SerializeCollectionRecord(inserted.record)));
   return std::move(inserted.record);
 }
 
@@ -121,7 +115,9 @@ absl::StatusOr<CollectionRecord> SqliteCatalog::InsertCollection(
   absl::StatusOr<CollectionRecord> inserted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
-        inserted = Insert(connection, record, request);
+        inserted = WriteOnce(connection, request, ParseCollectionRecord,
+                             SerializeCollectionRecord,
+                             [&] { return Insert(connection, record); });
         return inserted.status();
       }));
   return inserted;
@@ -134,7 +130,9 @@ absl::StatusOr<CollectionRecord> SqliteCatalog::UpdateCollection(
   absl::StatusOr<CollectionRecord> updated;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
-        updated = Update(connection, patch);
+        updated = WriteOnce(connection, patch.request, ParseCollectionRecord,
+                            SerializeCollectionRecord,
+                            [&] { return Update(connection, patch); });
         return updated.status();
       }));
   return updated;
@@ -145,7 +143,9 @@ absl::StatusOr<CollectionDeleted> SqliteCatalog::DeleteCollection(
   absl::StatusOr<CollectionDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
-        deleted = Delete(connection, removal);
+        deleted = WriteOnce(connection, removal.request, ParseCollectionDeleted,
+                            SerializeCollectionDeleted,
+                            [&] { return Delete(connection, removal); });
         return deleted.status();
       }));
   return deleted;

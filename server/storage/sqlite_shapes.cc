@@ -267,26 +267,17 @@ absl::StatusOr<ShapeDeleted> DeleteOne(SqliteConnection& connection,
 
 absl::StatusOr<ShapeDeleted> Delete(SqliteConnection& connection,
                                     const ShapeDelete& removal) {
-  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
-                           RecallRequest(connection, removal.request));
-  if (answer) return ParseShapeDeleted(*answer);
   ARGMESH_ASSIGN_OR_RETURN(const CollectionRow collection,
                            FindCollectionRow(connection, removal.collection));
-  ARGMESH_ASSIGN_OR_RETURN(
-      ShapeDeleted deleted,
-      DeleteOne(connection, collection, removal.id, removal.etag));
-  ARGMESH_RETURN_IF_ERROR(RememberRequest(connection, removal.request,
-                                          SerializeShapeDeleted(deleted)));
-  return deleted;
+  return DeleteOne(connection, collection, removal.id, removal.etag);
 }
 
 absl::StatusOr<ShapeDeleted> DeleteAll(SqliteConnection& connection,
-                                       std::string_view collection,
-                                       const std::vector<std::string>& ids) {
+                                       const ShapesDelete& removal) {
   ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
-                           FindCollectionRow(connection, collection));
+                           FindCollectionRow(connection, removal.collection));
   ShapeDeleted all{row.record.uid, row.record.generation, {}};
-  for (const std::string& id : ids) {
+  for (const std::string& id : removal.ids) {
     ARGMESH_ASSIGN_OR_RETURN(const ShapeDeleted one,
                              DeleteOne(connection, row, id, ""));
     all.generation = one.generation;
@@ -334,7 +325,9 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(size, [&](SqliteConnection& connection) {
-        written = Patch(connection, patch);
+        written = WriteOnce(connection, patch.request, ParseShapeWritten,
+                            SerializeShapeWritten,
+                            [&] { return Patch(connection, patch); });
         return written.status();
       }));
   return written;
@@ -345,18 +338,22 @@ absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShape(
   absl::StatusOr<ShapeDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
-        deleted = Delete(connection, removal);
+        deleted = WriteOnce(connection, removal.request, ParseShapeDeleted,
+                            SerializeShapeDeleted,
+                            [&] { return Delete(connection, removal); });
         return deleted.status();
       }));
   return deleted;
 }
 
 absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShapes(
-    std::string_view collection, const std::vector<std::string>& ids) {
+    const ShapesDelete& removal) {
   absl::StatusOr<ShapeDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
-        deleted = DeleteAll(connection, collection, ids);
+        deleted = WriteOnce(connection, removal.request, ParseShapeDeleted,
+                            SerializeShapeDeleted,
+                            [&] { return DeleteAll(connection, removal); });
         return deleted.status();
       }));
   return deleted;

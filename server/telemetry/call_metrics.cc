@@ -42,7 +42,11 @@ CallMetrics::CallMetrics()
       items_(prometheus::BuildCounter()
                  .Name("argmesh_ingest_items_total")
                  .Help("Items of ingest streams; reason \"\": stored.")
-                 .Register(*registry_)) {}
+                 .Register(*registry_)),
+      search_stages_(prometheus::BuildHistogram()
+                         .Name("argmesh_search_stage_seconds")
+                         .Help("Time of each stage of the searches.")
+                         .Register(*registry_)) {}
 
 void CallMetrics::Started(std::string_view method) {
   started_.Add(LabelsOf(method)).Increment();
@@ -66,6 +70,15 @@ void CallMetrics::Finished(const CallRecord& record) {
 
 void CallMetrics::ItemFinished(std::string_view reason) {
   items_.Add({{"reason", std::string(reason)}}).Increment();
+}
+
+void CallMetrics::SearchStageFinished(std::string_view mode,
+                                      std::string_view stage,
+                                      absl::Duration elapsed) {
+  search_stages_
+      .Add({{"mode", std::string(mode)}, {"stage", std::string(stage)}},
+           kSeconds)
+      .Observe(absl::ToDoubleSeconds(elapsed));
 }
 
 }  // namespace argmesh

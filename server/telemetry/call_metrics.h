@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "absl/status/status.h"
+#include "absl/time/time.h"
 #include "server/telemetry/call_record.h"
 
 namespace argmesh {
@@ -26,6 +27,9 @@ class CallMetrics {
   void Finished(const CallRecord& record);
   // One item of an ingest stream; `reason` is empty when it was stored.
   void ItemFinished(std::string_view reason);
+  // One stage of a search; `mode` is "global" or "partial".
+  void SearchStageFinished(std::string_view mode, std::string_view stage,
+                           absl::Duration elapsed);
 
   std::shared_ptr<prometheus::Collectable> collectable() const {
     return registry_;
@@ -39,6 +43,7 @@ class CallMetrics {
   prometheus::Family<prometheus::Histogram>& queueing_;
   prometheus::Family<prometheus::Counter>& errors_;
   prometheus::Family<prometheus::Counter>& items_;
+  prometheus::Family<prometheus::Histogram>& search_stages_;
 };
 
 }  // namespace argmesh

@@ -46,6 +46,11 @@ class Telemetry {
   void CallFinished(const CallRecord& record);
   // One item of a stream, with the item's own resource, code and reason.
   void ItemFinished(const CallRecord& record);
+  // As CallMetrics.
+  void SearchStageFinished(std::string_view mode, std::string_view stage,
+                           absl::Duration elapsed) {
+    metrics_.SearchStageFinished(mode, stage, elapsed);
+  }
 
   // Opens the files again, after they were renamed. The first error; a file
   // that cannot be opened again goes on as it was.

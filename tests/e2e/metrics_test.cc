@@ -79,6 +79,11 @@ class MetricsTest : public testing::Test {
         installation_.Run({"ingest", "--collection", "mugs", Path("meshes")})
             .exit_code,
         0);
+    ASSERT_EQ(installation_
+                  .Run({"search", "--collection", "mugs",
+                        Path("meshes/mug/mug-01.off")})
+                  .exit_code,
+              0);
     ASSERT_EQ(installation_.Run({"list", "--collection", "none"}).exit_code, 1);
     text_ = GetMetrics(port_);
   }

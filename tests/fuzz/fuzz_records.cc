@@ -40,6 +40,7 @@ void FuzzEvery(std::string_view bytes) {
   FuzzRecord(bytes, ParseCollectionRecord, SerializeCollectionRecord);
   FuzzRecord(bytes, ParseShapeWritten, SerializeShapeWritten);
   FuzzRecord(bytes, ParseShapeDeleted, SerializeShapeDeleted);
+  FuzzRecord(bytes, ParseCollectionDeleted, SerializeCollectionDeleted);
 }
 
 }  // namespace

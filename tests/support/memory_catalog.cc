@@ -123,60 +123,65 @@ ScannedGraph MemoryCatalog::Scan(const Collection& collection,
 
 absl::StatusOr<CollectionRecord> MemoryCatalog::InsertCollection(
     const CollectionRecord& record, const RequestStamp& request) {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
-                           Recall(request));
-  if (answer) return ParseCollectionRecord(*answer);
-  if (collections_.contains(record.id)) return CollectionExistsError(record.id);
-  collections_[record.id].record = record;
-  Remember(request, SerializeCollectionRecord(record));
-  return record;
+  const auto write = [&]() -> absl::StatusOr<CollectionRecord> {
+    if (collections_.contains(record.id))
+      return CollectionExistsError(record.id);
+    collections_[record.id].record = record;
+    return record;
+  };
+  return Once<CollectionRecord>(request, ParseCollectionRecord,
+                                SerializeCollectionRecord, write);
 }
 
 absl::StatusOr<CollectionRecord> MemoryCatalog::UpdateCollection(
     const CollectionPatch& patch) {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.id));
-  CollectionRecord& record = collection->record;
-  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(record)));
-  if (patch.metadata_keys) {
-    for (const auto& [id, shape] : collection->shapes) {
-      ARGMESH_RETURN_IF_ERROR(
-          CheckStoredValues(*patch.metadata_keys, id, shape.record.metadata));
+  const auto write = [&]() -> absl::StatusOr<CollectionRecord> {
+    ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.id));
+    CollectionRecord& record = collection->record;
+    ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, CollectionEtag(record)));
+    if (patch.metadata_keys) {
+      for (const auto& [id, shape] : collection->shapes) {
+        ARGMESH_RETURN_IF_ERROR(
+            CheckStoredValues(*patch.metadata_keys, id, shape.record.metadata));
+      }
+      record.metadata_keys = *patch.metadata_keys;
     }
-    record.metadata_keys = *patch.metadata_keys;
-  }
-  if (patch.display_name) record.display_name = *patch.display_name;
-  if (patch.graph_version) record.graph_version = *patch.graph_version;
-  record.update_time = patch.update_time;
-  ++record.revision;
-  return record;
+    if (patch.display_name) record.display_name = *patch.display_name;
+    if (patch.graph_version) record.graph_version = *patch.graph_version;
+    record.update_time = patch.update_time;
+    ++record.revision;
+    return record;
+  };
+  return Once<CollectionRecord>(patch.request, ParseCollectionRecord,
+                                SerializeCollectionRecord, write);
 }
 
 absl::StatusOr<CollectionDeleted> MemoryCatalog::DeleteCollection(
     const CollectionDelete& removal) {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(const Collection* collection, Find(removal.id));
-  ARGMESH_RETURN_IF_ERROR(
-      CheckEtag(removal.etag, CollectionEtag(collection->record)));
-  if (!collection->shapes.empty() && !removal.force) {
-    return CollectionNotEmptyError(removal.id);
-  }
-  CollectionDeleted deleted;
-  deleted.uid = collection->record.uid;
-  const Collection gone = *collection;
-  collections_.erase(removal.id);
-  for (const auto& [id, shape] : gone.shapes) {
-    for (const Sha256Digest& sha256 : Unreferenced(shape.record)) {
-      deleted.unreferenced.push_back(sha256);
+  const auto write = [&]() -> absl::StatusOr<CollectionDeleted> {
+    ARGMESH_ASSIGN_OR_RETURN(const Collection* collection, Find(removal.id));
+    ARGMESH_RETURN_IF_ERROR(
+        CheckEtag(removal.etag, CollectionEtag(collection->record)));
+    if (!collection->shapes.empty() && !removal.force) {
+      return CollectionNotEmptyError(removal.id);
     }
-  }
-  std::sort(deleted.unreferenced.begin(), deleted.unreferenced.end());
-  deleted.unreferenced.erase(
-      std::unique(deleted.unreferenced.begin(), deleted.unreferenced.end()),
-      deleted.unreferenced.end());
-  return deleted;
+    CollectionDeleted deleted;
+    deleted.uid = collection->record.uid;
+    const Collection gone = *collection;
+    collections_.erase(removal.id);
+    for (const auto& [id, shape] : gone.shapes) {
+      for (const Sha256Digest& sha256 : Unreferenced(shape.record)) {
+        deleted.unreferenced.push_back(sha256);
+      }
+    }
+    std::sort(deleted.unreferenced.begin(), deleted.unreferenced.end());
+    deleted.unreferenced.erase(
+        std::unique(deleted.unreferenced.begin(), deleted.unreferenced.end()),
+        deleted.unreferenced.end());
+    return deleted;
+  };
+  return Once<CollectionDeleted>(removal.request, ParseCollectionDeleted,
+                                 SerializeCollectionDeleted, write);
 }
 
 absl::StatusOr<CollectionRecord> MemoryCatalog::GetCollection(
@@ -265,43 +270,45 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
 
 absl::StatusOr<ShapeWritten> MemoryCatalog::UpdateShape(
     const ShapePatch& patch) {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.collection));
-  const auto it = collection->shapes.find(patch.id);
-  if (it == collection->shapes.end()) {
-    return ShapeNotFoundError(patch.collection, patch.id);
-  }
-  ShapeRecord& record = it->second.record;
-  ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
-  if (patch.metadata) {
-    ARGMESH_RETURN_IF_ERROR(
-        CheckDeclaredValues(collection->record.metadata_keys, *patch.metadata));
-  }
-  if (patch.display_name) record.display_name = *patch.display_name;
-  if (patch.source_uri) record.source_uri = *patch.source_uri;
-  if (patch.metadata) record.metadata = *patch.metadata;
-  record.update_time = patch.update_time;
-  record.generation = LogChange(*collection, patch.id, ShapeChange::Kind::kPut);
-  return ShapeWritten{record, collection->record.uid, true, {}};
+  const auto write = [&]() -> absl::StatusOr<ShapeWritten> {
+    ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(patch.collection));
+    const auto it = collection->shapes.find(patch.id);
+    if (it == collection->shapes.end()) {
+      return ShapeNotFoundError(patch.collection, patch.id);
+    }
+    ShapeRecord& record = it->second.record;
+    ARGMESH_RETURN_IF_ERROR(CheckEtag(patch.etag, ShapeEtag(record)));
+    if (patch.metadata) {
+      ARGMESH_RETURN_IF_ERROR(CheckDeclaredValues(
+          collection->record.metadata_keys, *patch.metadata));
+    }
+    if (patch.display_name) record.display_name = *patch.display_name;
+    if (patch.source_uri) record.source_uri = *patch.source_uri;
+    if (patch.metadata) record.metadata = *patch.metadata;
+    record.update_time = patch.update_time;
+    record.generation =
+        LogChange(*collection, patch.id, ShapeChange::Kind::kPut);
+    return ShapeWritten{record, collection->record.uid, true, {}};
+  };
+  return Once<ShapeWritten>(patch.request, ParseShapeWritten,
+                            SerializeShapeWritten, write);
 }
 
 absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
     const ShapeDelete& removal) {
-  const std::lock_guard lock(mutex_);
-  if (closed_) return CatalogClosedError();
-  ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
-                           Recall(removal.request));
-  if (answer) return ParseShapeDeleted(*answer);
-  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(removal.collection));
-  const auto it = collection->shapes.find(removal.id);
-  if (it == collection->shapes.end()) {
-    return ShapeNotFoundError(removal.collection, removal.id);
-  }
-  ARGMESH_RETURN_IF_ERROR(
-      CheckEtag(removal.etag, ShapeEtag(it->second.record)));
-  const ShapeDeleted deleted = Erase(*collection, removal.id);
-  Remember(removal.request, SerializeShapeDeleted(deleted));
-  return deleted;
+  const auto write = [&]() -> absl::StatusOr<ShapeDeleted> {
+    ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(removal.collection));
+    const auto it = collection->shapes.find(removal.id);
+    if (it == collection->shapes.end()) {
+      return ShapeNotFoundError(removal.collection, removal.id);
+    }
+    ARGMESH_RETURN_IF_ERROR(
+        CheckEtag(removal.etag, ShapeEtag(it->second.record)));
+    const ShapeDeleted deleted = Erase(*collection, removal.id);
+    return deleted;
+  };
+  return Once<ShapeDeleted>(removal.request, ParseShapeDeleted,
+                            SerializeShapeDeleted, write);
 }
 
 ShapeDeleted MemoryCatalog::Erase(Collection& collection,
@@ -318,22 +325,25 @@ ShapeDeleted MemoryCatalog::Erase(Collection& collection,
 }
 
 absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShapes(
-    std::string_view collection_id, const std::vector<std::string>& ids) {
-  const std::lock_guard lock(mutex_);
-  ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(collection_id));
-  for (const std::string& id : ids) {
-    if (!collection->shapes.contains(id)) {
-      return ShapeNotFoundError(collection_id, id);
+    const ShapesDelete& removal) {
+  const auto write = [&]() -> absl::StatusOr<ShapeDeleted> {
+    ARGMESH_ASSIGN_OR_RETURN(Collection * collection, Find(removal.collection));
+    for (const std::string& id : removal.ids) {
+      if (!collection->shapes.contains(id)) {
+        return ShapeNotFoundError(removal.collection, id);
+      }
     }
-  }
-  ShapeDeleted all{collection->record.uid, collection->record.generation, {}};
-  for (const std::string& id : ids) {
-    const ShapeDeleted one = Erase(*collection, id);
-    all.generation = one.generation;
-    all.unreferenced.insert(all.unreferenced.end(), one.unreferenced.begin(),
-                            one.unreferenced.end());
-  }
-  return all;
+    ShapeDeleted all{collection->record.uid, collection->record.generation, {}};
+    for (const std::string& id : removal.ids) {
+      const ShapeDeleted one = Erase(*collection, id);
+      all.generation = one.generation;
+      all.unreferenced.insert(all.unreferenced.end(), one.unreferenced.begin(),
+                              one.unreferenced.end());
+    }
+    return all;
+  };
+  return Once<ShapeDeleted>(removal.request, ParseShapeDeleted,
+                            SerializeShapeDeleted, write);
 }
 
 absl::Status MemoryCatalog::Close() {

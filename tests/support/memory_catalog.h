@@ -36,8 +36,7 @@ class MemoryCatalog : public Catalog {
   absl::StatusOr<ShapeWritten> UpdateShape(const ShapePatch& patch) override;
   absl::StatusOr<ShapeDeleted> DeleteShape(const ShapeDelete& removal) override;
   absl::StatusOr<ShapeDeleted> DeleteShapes(
-      std::string_view collection,
-      const std::vector<std::string>& ids) override;
+      const ShapesDelete& removal) override;
   absl::StatusOr<ShapeRecord> GetShape(std::string_view collection,
                                        std::string_view id) const override;
   absl::StatusOr<std::vector<ShapeRecord>> ListShapes(
@@ -115,6 +114,22 @@ class MemoryCatalog : public Catalog {
     RequestStamp request;
     std::string bytes;
   };
+  // What `write` answers; the first answer for a request that was made before.
+  // Takes the lock.
+  template <typename Result, typename Write>
+  absl::StatusOr<Result> Once(const RequestStamp& request,
+                              absl::StatusOr<Result> (*parse)(std::string_view),
+                              std::string (*serialize)(const Result&),
+                              const Write& write) {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return CatalogClosedError();
+    const absl::StatusOr<std::optional<std::string>> answer = Recall(request);
+    if (!answer.ok()) return answer.status();
+    if (*answer) return parse(**answer);
+    absl::StatusOr<Result> written = write();
+    if (written.ok()) Remember(request, serialize(*written));
+    return written;
+  }
 
   absl::StatusOr<Collection*> Find(std::string_view id);
   absl::StatusOr<const Collection*> Find(std::string_view id) const;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "core/base/random.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/record_codec.h"
@@ -63,6 +64,10 @@ std::string Show(const ShapeWritten& written) {
   return SerializeShapeWritten(written) + Digests(written.unreferenced);
 }
 
+std::string ShowDeleted(const ShapeDeleted& deleted) {
+  return SerializeShapeDeleted(deleted) + Digests(deleted.unreferenced);
+}
+
 // One operation on any catalog; the same text from equal catalogs.
 using Operation = std::function<std::string(Catalog&)>;
 
@@ -105,7 +110,7 @@ class Operations {
       case 6:
         return UpdateShape(model);
       case 7:
-        return DeleteShape(model);
+        return random_.Below(4) == 0 ? DeleteShapes() : DeleteShape(model);
       case 8:
         return random_.Below(4) == 0 ? BeginStage(model)
                                      : SwitchSettings(model);
@@ -171,6 +176,7 @@ class Operations {
     patch.display_name = absl::StrCat("name ", random_.Below(100));
     if (random_.Below(2) == 0) patch.metadata_keys = RandomKeys(random_);
     patch.etag = EtagOfCollection(model, patch.id);
+    patch.request = Stamp("UpdateCollection", patch.id);
     patch.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
     return [=](Catalog& catalog) {
@@ -184,6 +190,7 @@ class Operations {
     removal.id = CollectionId();
     removal.force = random_.Below(2) == 0;
     removal.etag = EtagOfCollection(model, removal.id);
+    removal.request = Stamp("DeleteCollection", removal.id);
     return [=](Catalog& catalog) {
       return "delete " + removal.id + ": " +
              Text(catalog.DeleteCollection(removal),
@@ -222,6 +229,7 @@ class Operations {
     if (random_.Below(2) == 0) patch.source_uri = "file:///elsewhere";
     if (random_.Below(2) == 0) patch.metadata = RandomMetadata(random_);
     patch.etag = EtagOfShape(model, patch.collection, patch.id);
+    patch.request = Stamp("UpdateShape", patch.id);
     patch.update_time = absl::FromUnixSeconds(
         1'700'000'000 + static_cast<int64_t>(random_.Below(1000)));
     return [=](Catalog& catalog) {
@@ -238,11 +246,20 @@ class Operations {
     removal.request = Stamp("DeleteShape", removal.id);
     return [=](Catalog& catalog) {
       return "delete " + removal.collection + "/" + removal.id + ": " +
-             Text(catalog.DeleteShape(removal),
-                  [](const ShapeDeleted& deleted) {
-                    return SerializeShapeDeleted(deleted) +
-                           Digests(deleted.unreferenced);
-                  });
+             Text(catalog.DeleteShape(removal), ShowDeleted);
+    };
+  }
+
+  Operation DeleteShapes() {
+    ShapesDelete removal;
+    removal.collection = CollectionId();
+    for (uint64_t i = 0; i < kShapes; ++i) {
+      if (random_.Below(3) == 0) removal.ids.push_back(absl::StrCat("s", i));
+    }
+    removal.request = Stamp("DeleteShapes", absl::StrJoin(removal.ids, ","));
+    return [=](Catalog& catalog) {
+      return "delete of " + removal.collection + ": " +
+             Text(catalog.DeleteShapes(removal), ShowDeleted);
     };
   }
 

@@ -464,24 +464,84 @@ TEST_P(CatalogPortTest, RepeatsTheAnswersOfCreateAndDelete) {
   EXPECT_EQ(second.generation, first.generation);
 }
 
+TEST_P(CatalogPortTest, RepeatsTheAnswersOfUpdates) {
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  ASSERT_THAT(catalog_->PutShape(SamplePut(cups, "red", 1)), IsOk());
+  ASSERT_OK_AND_ASSIGN(const ShapeRecord red,
+                       catalog_->GetShape("cups", "red"));
+  // With the etag of before, which is no more the stored one.
+  const ShapePatch patch{.collection = "cups",
+                         .id = "red",
+                         .display_name = "the red one",
+                         .source_uri = {},
+                         .metadata = {},
+                         .etag = ShapeEtag(red),
+                         .update_time = red.update_time,
+                         .request = SampleRequest('1', "UpdateShape", "red")};
+  ASSERT_OK_AND_ASSIGN(const ShapeWritten first, catalog_->UpdateShape(patch));
+  ASSERT_OK_AND_ASSIGN(const ShapeWritten second, catalog_->UpdateShape(patch));
+  EXPECT_TRUE(SameRecord(second.record, first.record));
+  EXPECT_EQ(second.collection_uid, cups.uid);
+
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord present,
+                       catalog_->GetCollection("cups"));
+  CollectionPatch name;
+  name.id = "cups";
+  name.display_name = "all cups";
+  name.etag = CollectionEtag(present);
+  name.request = SampleRequest('2', "UpdateCollection", "cups");
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord named,
+                       catalog_->UpdateCollection(name));
+  ASSERT_OK_AND_ASSIGN(const CollectionRecord again,
+                       catalog_->UpdateCollection(name));
+  EXPECT_EQ(again.revision, named.revision);
+  EXPECT_EQ(again.display_name, "all cups");
+}
+
+TEST_P(CatalogPortTest, RepeatsTheAnswersOfDeletionsOfMany) {
+  const CollectionRecord cups = SampleCollection("cups");
+  ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
+  for (const char* id : {"blue", "red"}) {
+    ASSERT_THAT(catalog_->PutShape(SamplePut(cups, id, 1)), IsOk());
+  }
+  const ShapesDelete both{
+      "cups", {"blue", "red"}, SampleRequest('1', "DeleteShapes", "both")};
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted first, catalog_->DeleteShapes(both));
+  ASSERT_OK_AND_ASSIGN(const ShapeDeleted second, catalog_->DeleteShapes(both));
+  EXPECT_EQ(second.generation, first.generation);
+  EXPECT_EQ(second.collection_uid, cups.uid);
+
+  const CollectionDelete all{"cups", false, "",
+                             SampleRequest('2', "DeleteCollection", "cups")};
+  ASSERT_THAT(catalog_->DeleteCollection(all), IsOk());
+  ASSERT_OK_AND_ASSIGN(const CollectionDeleted gone,
+                       catalog_->DeleteCollection(all));
+  EXPECT_EQ(gone.uid, cups.uid);
+  // Not the collection that has the id meanwhile.
+  ASSERT_THAT(catalog_->InsertCollection(SampleCollection("cups"), {}), IsOk());
+  EXPECT_THAT(catalog_->DeleteCollection(all), IsOk());
+  EXPECT_THAT(catalog_->GetCollection("cups"), IsOk());
+}
+
 TEST_P(CatalogPortTest, DeletesAllShapesOfAListOrNone) {
   const CollectionRecord cups = SampleCollection("cups");
   ASSERT_THAT(catalog_->InsertCollection(cups, {}), IsOk());
   for (const char* id : {"blue", "green", "red"}) {
     ASSERT_THAT(catalog_->PutShape(SamplePut(cups, id, 1)), IsOk());
   }
-  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes("cups", {"red", "none"})),
+  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes({"cups", {"red", "none"}})),
             ErrorReason::kShapeNotFound);
-  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes("none", {"red"})),
+  EXPECT_EQ(ReasonOrOk(catalog_->DeleteShapes({"none", {"red"}})),
             ErrorReason::kCollectionNotFound);
   EXPECT_THAT(catalog_->GetShape("cups", "red"), IsOk());
   ASSERT_OK_AND_ASSIGN(const ShapeDeleted two,
-                       catalog_->DeleteShapes("cups", {"red", "blue"}));
+                       catalog_->DeleteShapes({"cups", {"red", "blue"}}));
   EXPECT_EQ(two.generation, 5);
   EXPECT_EQ(two.collection_uid, cups.uid);
   EXPECT_TRUE(two.unreferenced.empty());  // "green" has the same mesh
   ASSERT_OK_AND_ASSIGN(const ShapeDeleted last,
-                       catalog_->DeleteShapes("cups", {"green"}));
+                       catalog_->DeleteShapes({"cups", {"green"}}));
   EXPECT_EQ(last.unreferenced.size(), 1U);
   ASSERT_OK_AND_ASSIGN(const CollectionRecord left,
                        catalog_->GetCollection("cups"));

@@ -191,7 +191,7 @@ TEST_P(CatalogStagesTest, GoesOnWithTheSameStageAndForgetsAnother) {
 }
 
 TEST_P(CatalogStagesTest, SwitchesACollectionWithoutShapes) {
-  ASSERT_THAT(catalog_->DeleteShapes("cups", {"blue", "red"}), IsOk());
+  ASSERT_THAT(catalog_->DeleteShapes({"cups", {"blue", "red"}}), IsOk());
   ASSERT_THAT(Begin(stage_), IsOk());
   ASSERT_OK_AND_ASSIGN(const std::optional<CollectionRecord> done, Switch());
   ASSERT_TRUE(done.has_value());

@@ -60,6 +60,7 @@ TEST(MetricsEndpoint, CountsCallsByMethodAndCode) {
   calls.Finished(Ended(absl::StatusCode::kNotFound, "COLLECTION_NOT_FOUND"));
   calls.ItemFinished("");
   calls.ItemFinished("MESH_EMPTY");
+  calls.SearchStageFinished("partial", "match", absl::Milliseconds(20));
   auto endpoint = MetricsEndpoint::Start("127.0.0.1:0", calls, {});
   ASSERT_TRUE(endpoint.ok()) << endpoint.status();
   const std::string text = Get((*endpoint)->port(), "/metrics");
@@ -84,6 +85,8 @@ TEST(MetricsEndpoint, CountsCallsByMethodAndCode) {
                               "\"COLLECTION_NOT_FOUND\"} 1"));
   EXPECT_THAT(text, HasSubstr("argmesh_ingest_items_total{reason=\"\"} 1"));
   EXPECT_THAT(text, HasSubstr("{reason=\"MESH_EMPTY\"} 1"));
+  EXPECT_THAT(text, HasSubstr("argmesh_search_stage_seconds_bucket{mode="
+                              "\"partial\",stage=\"match\",le=\"0.025\"} 1"));
 }
 
 TEST(MetricsEndpoint, NamesOperationsByTheirOwnPackage) {
