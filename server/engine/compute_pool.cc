@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +22,7 @@
 #include "absl/time/clock.h"
 #include "server/engine/cpu_count.h"
 #include "server/engine/error_reason.h"
+#include "server/engine/fair_queue.h"
 
 namespace argmesh {
 namespace {
@@ -65,17 +66,14 @@ class ComputePool::State {
  public:
   explicit State(const ComputePoolOptions& options);
 
-  void Submit(WorkClass work_class, absl::Time deadline, Work work);
+  void Submit(WorkClass work_class, absl::Time deadline, Work work,
+              const std::string& caller);
   void ParallelFor(WorkClass work_class, int64_t count,
                    const std::function<void(int64_t)>& body);
   WorkLoad Load(WorkClass work_class) const;
   void Close();
 
  private:
-  struct Waiting {
-    Work work;
-    absl::Time give_up;
-  };
   struct Lane {
     Lane(WorkClass lane_class, int num_threads, int queue_limit,
          asio::thread_pool& timers)
@@ -88,7 +86,7 @@ class ComputePool::State {
     const WorkClass work_class;
     const int max_queued;
     WorkLoad load;
-    std::deque<Waiting> queue;
+    FairQueue<Work> queue;
     std::atomic<int> num_queued{0};  // a copy that helpers read unlocked
     asio::thread_pool pool;
     asio::steady_timer timer;
@@ -121,9 +119,10 @@ ComputePool::State::State(const ComputePoolOptions& options)
 }
 
 void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
-                                Work work) {
+                                Work work, const std::string& caller) {
   Lane& lane = this->lane(work_class);
   absl::Status refusal;
+  Work refused;
   {
     const std::lock_guard lock(mutex_);
     if (closed_) {
@@ -133,21 +132,24 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
       ++lane.load.admitted;
       Start(lane, std::move(work));
       return;
-    } else if (static_cast<int>(lane.queue.size()) >= lane.max_queued) {
-      refusal = Refusal("too many calls wait already", max_wait_);
     } else {
-      const absl::Time now = absl::Now();
-      const absl::Duration quarter = (deadline - now) / 4;
-      lane.queue.push_back(
-          {std::move(work),
-           now + std::clamp(quarter, absl::ZeroDuration(), max_wait_)});
-      lane.num_queued = static_cast<int>(lane.queue.size());
-      ArmTimer(lane);
-      return;
+      const bool is_full =
+          static_cast<int>(lane.queue.size()) >= lane.max_queued;
+      if (is_full) refusal = Refusal("too many calls wait already", max_wait_);
+      if (!is_full || lane.queue.PushOut(caller, refused)) {
+        const absl::Time now = absl::Now();
+        const absl::Duration quarter = (deadline - now) / 4;
+        lane.queue.Push(
+            caller, now + std::clamp(quarter, absl::ZeroDuration(), max_wait_),
+            std::move(work));
+        lane.num_queued = static_cast<int>(lane.queue.size());
+        ArmTimer(lane);
+        if (!is_full) return;
+      }
     }
     ++lane.load.refused;
   }
-  work(std::move(refusal));
+  (refused ? refused : work)(std::move(refusal));
 }
 
 // Locked, so that Close finds the thread reserved and its work posted, or
@@ -170,8 +172,7 @@ void ComputePool::State::Serve(Lane& lane) {
         --lane.load.running;
         return;
       }
-      work = std::move(lane.queue.front().work);
-      lane.queue.pop_front();
+      work = lane.queue.Pop();
       lane.num_queued = static_cast<int>(lane.queue.size());
       ++lane.load.admitted;
     }
@@ -180,12 +181,9 @@ void ComputePool::State::Serve(Lane& lane) {
 }
 
 void ComputePool::State::ArmTimer(Lane& lane) {
-  const auto first = std::min_element(
-      lane.queue.begin(), lane.queue.end(),
-      [](const Waiting& a, const Waiting& b) { return a.give_up < b.give_up; });
-  if (first == lane.queue.end()) return;
+  if (lane.queue.empty()) return;
   lane.timer.expires_after(absl::ToChronoNanoseconds(
-      std::max(absl::ZeroDuration(), first->give_up - absl::Now())));
+      std::max(absl::ZeroDuration(), lane.queue.FirstGiveUp() - absl::Now())));
   lane.timer.async_wait([this, &lane](const asio::error_code& error) {
     if (!error) RefuseLate(lane);
   });
@@ -195,16 +193,7 @@ void ComputePool::State::RefuseLate(Lane& lane) {
   std::vector<Work> late;
   {
     const std::lock_guard lock(mutex_);
-    const absl::Time now = absl::Now();
-    std::deque<Waiting> kept;
-    for (Waiting& waiting : lane.queue) {
-      if (waiting.give_up <= now) {
-        late.push_back(std::move(waiting.work));
-      } else {
-        kept.push_back(std::move(waiting));
-      }
-    }
-    lane.queue = std::move(kept);
+    late = lane.queue.TakeLate(absl::Now());
     lane.num_queued = static_cast<int>(lane.queue.size());
     lane.load.refused += static_cast<int64_t>(late.size());
     ArmTimer(lane);
@@ -272,11 +261,10 @@ void ComputePool::State::Close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     for (const auto& lane : lanes_) {
-      for (Waiting& waiting : lane->queue) {
-        refused.push_back(std::move(waiting.work));
+      for (Work& work : lane->queue.TakeLate(absl::InfiniteFuture())) {
+        refused.push_back(std::move(work));
         ++lane->load.refused;
       }
-      lane->queue.clear();
       lane->num_queued = 0;
       lane->timer.cancel();
     }
@@ -291,8 +279,9 @@ ComputePool::ComputePool(const ComputePoolOptions& options)
 
 ComputePool::~ComputePool() { Close(); }
 
-void ComputePool::Submit(WorkClass work_class, absl::Time deadline, Work work) {
-  state_->Submit(work_class, deadline, std::move(work));
+void ComputePool::Submit(WorkClass work_class, absl::Time deadline, Work work,
+                         const std::string& caller) {
+  state_->Submit(work_class, deadline, std::move(work), caller);
 }
 
 void ComputePool::ParallelFor(WorkClass work_class, int64_t count,

@@ -7,7 +7,9 @@
 //
 // Work that cannot start within min(a quarter of the time to its deadline,
 // `max_wait`) is refused with kResourceExhausted OVERLOADED and a retry delay;
-// at once when the queue of its class is full. After Close: DRAINING.
+// at once when the queue of its class is full. After Close: DRAINING. Callers
+// take turns: who has much waiting makes no other wait longer for it, and a
+// full queue lets go of the newest work of the one who has the most.
 #ifndef ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 #define ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
@@ -49,7 +52,9 @@ class ComputePool {
   explicit ComputePool(const ComputePoolOptions& options = {});
   ~ComputePool();  // Close
 
-  void Submit(WorkClass work_class, absl::Time deadline, Work work);
+  // `caller` is whom it is for, a connection; empty: the server itself.
+  void Submit(WorkClass work_class, absl::Time deadline, Work work,
+              const std::string& caller = "");
 
   // Runs `body(i)` for every i in 0 .. count-1 on the caller's thread and on
   // idle threads of the class; returns when all are done. The caller works

@@ -164,7 +164,8 @@ class GuardedReactor
         [this, self = this->shared_from_this(),
          step = std::move(step)](const absl::Status& admission) {
           Guard([&] { RunStep(step, admission); });
-        });
+        },
+        scope_.peer());
   }
 
   void RunStep(const PoolStep& step, const absl::Status& admission) {

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -91,6 +93,59 @@ TEST(ComputePool, RefusesAtOnceWhenItsQueueIsFull) {
   EXPECT_TRUE(RetryDelayOf(refused).has_value());
   EXPECT_EQ(pool.Load(WorkClass::kSearch).refused, 1);
   blocker.Release();
+}
+
+TEST(ComputePool, LetsCallersTakeTurns) {
+  std::mutex mutex;
+  std::string order;
+  std::vector<std::promise<void>> done(5);
+  ComputePool pool(Threads(1, 10));
+  Blocker blocker(pool, WorkClass::kSearch);
+  const std::string callers = "aaabc";
+  for (size_t i = 0; i < callers.size(); ++i) {
+    const std::string caller(1, callers[i]);
+    pool.Submit(
+        WorkClass::kSearch, absl::InfiniteFuture(),
+        [&, caller, i](const absl::Status&) {
+          {
+            const std::lock_guard lock(mutex);
+            order += caller;
+          }
+          done[i].set_value();
+        },
+        caller);
+  }
+  blocker.Release();
+  for (auto& promise : done) promise.get_future().wait();
+  EXPECT_EQ(order, "abcaa");
+}
+
+TEST(ComputePool, LetsTheOneWithTheMostGoWhenItsQueueIsFull) {
+  std::vector<std::string> outcome;
+  ComputePool pool(Threads(1, 3));
+  Blocker blocker(pool, WorkClass::kSearch);
+  std::mutex mutex;
+  std::vector<std::promise<void>> done(6);
+  const std::string callers = "aaabba";
+  for (size_t i = 0; i < callers.size(); ++i) {
+    pool.Submit(
+        WorkClass::kSearch, absl::InfiniteFuture(),
+        [&, i](const absl::Status& status) {
+          {
+            const std::lock_guard lock(mutex);
+            outcome.push_back(callers[i] + std::to_string(i) +
+                              (status.ok() ? " ran" : " refused"));
+          }
+          done[i].set_value();
+        },
+        std::string(1, callers[i]));
+  }
+  blocker.Release();
+  for (auto& promise : done) promise.get_future().wait();
+  // The newest of "a" goes for the first of "b"; then both would have as many.
+  EXPECT_EQ(outcome,
+            (std::vector<std::string>{"a2 refused", "b4 refused", "a5 refused",
+                                      "a0 ran", "b3 ran", "a1 ran"}));
 }
 
 TEST(ComputePool, RefusesWhatWaitedAQuarterOfItsTime) {
