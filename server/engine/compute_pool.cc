@@ -8,6 +8,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -164,19 +165,24 @@ void ComputePool::State::Start(Lane& lane, Work work) {
 }
 
 void ComputePool::State::Serve(Lane& lane) {
+  std::optional<std::string> served;
+  absl::Time begin;
   while (true) {
-    Work work;
+    FairQueue<Work>::Next next;
     {
       const std::lock_guard lock(mutex_);
+      if (served) lane.queue.Finished(*served, absl::Now() - begin);
       if (lane.queue.empty()) {
         --lane.load.running;
         return;
       }
-      work = lane.queue.Pop();
+      next = lane.queue.Pop();
       lane.num_queued = static_cast<int>(lane.queue.size());
       ++lane.load.admitted;
     }
-    work(absl::OkStatus());
+    served = next.caller;
+    begin = absl::Now();
+    next.work(absl::OkStatus());
   }
 }
 

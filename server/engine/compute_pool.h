@@ -7,9 +7,11 @@
 //
 // Work that cannot start within min(a quarter of the time to its deadline,
 // `max_wait`) is refused with kResourceExhausted OVERLOADED and a retry delay;
-// at once when the queue of its class is full. After Close: DRAINING. Callers
-// take turns: who has much waiting makes no other wait longer for it, and a
-// full queue lets go of the newest work of the one who has the most.
+// at once when the queue of its class is full. After Close: DRAINING.
+//
+// Callers share the threads of a class by time: who asks for much makes no
+// other wait longer for it, and a full queue lets go of the newest work of the
+// one who has the most waiting (fair_queue.h).
 #ifndef ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 #define ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 

@@ -95,7 +95,7 @@ TEST(ComputePool, RefusesAtOnceWhenItsQueueIsFull) {
   blocker.Release();
 }
 
-TEST(ComputePool, LetsCallersTakeTurns) {
+TEST(ComputePool, SharesItsThreadsAmongCallers) {
   std::mutex mutex;
   std::string order;
   std::vector<std::promise<void>> done(5);
