@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
+
+#include "absl/strings/str_split.h"
 
 namespace argmesh {
 namespace {
 
-std::string FirstLine(const char* path) {
+// Of version 2, whose line begins so in /proc/PID/cgroup.
+constexpr std::string_view kVersion2 = "0::/";
+
+std::string FirstLine(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
@@ -30,14 +39,31 @@ std::optional<int> CpusOfQuota(std::string_view cpu_max) {
       std::clamp<int64_t>((quota + period - 1) / period, 1, 4096));
 }
 
+std::optional<int> CpusOfCgroup(const std::filesystem::path& root,
+                                std::string_view cgroups) {
+  std::filesystem::path group;  // below the root
+  for (const std::string_view line : absl::StrSplit(cgroups, '\n')) {
+    if (line.starts_with(kVersion2)) group = line.substr(kVersion2.size());
+  }
+  std::optional<int> least;
+  while (true) {
+    const auto cpus = CpusOfQuota(FirstLine(root / group / "cpu.max"));
+    if (cpus) least = std::min(*cpus, least.value_or(*cpus));
+    if (group.empty()) return least;
+    group = group.parent_path();
+  }
+}
+
 int AvailableCpus() {
   int cpus = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::ifstream own("/proc/self/cgroup");
+  const std::string cgroups{std::istreambuf_iterator<char>(own), {}};
   const std::string version1 =
       FirstLine("/sys/fs/cgroup/cpu/cpu.cfs_quota_us") + " " +
       FirstLine("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
-  for (const std::string& quota :
-       {FirstLine("/sys/fs/cgroup/cpu.max"), version1}) {
-    if (const auto limit = CpusOfQuota(quota)) cpus = std::min(cpus, *limit);
+  for (const std::optional<int> limit :
+       {CpusOfCgroup("/sys/fs/cgroup", cgroups), CpusOfQuota(version1)}) {
+    if (limit) cpus = std::min(cpus, *limit);
   }
   return cpus;
 }

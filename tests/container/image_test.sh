@@ -56,7 +56,7 @@ if command -v ccache >/dev/null; then
 fi
 buildah "${store[@]}" --storage-driver overlay bud --isolation chroot \
   --pull-never --format docker --layers=false --quiet "${cache[@]}" \
-  -f docker/Dockerfile -t localhost/argmesh:test . >"$work/log" 2>&1 ||
+  --build-arg VERSION=1.2.3 -f docker/Dockerfile -t localhost/argmesh:test . >"$work/log" 2>&1 ||
   fail "the image does not build: $(tail -5 "$work/log")"
 
 inspect() {
@@ -67,6 +67,8 @@ inspect() {
   fail "the image has no health check"
 [[ $(inspect '{{index .Config.Labels "org.opencontainers.image.title"}}') == argmesh ]] ||
   fail "the image has no title"
+[[ $(inspect '{{index .Config.Labels "org.opencontainers.image.version"}}') == 1.2.3 ]] ||
+  fail "the image does not say its version"
 added=$(($(inspect '{{.Size}}') - base_bytes))
 printf 'image: %d MB over its base of %d MB\n' $((added / 1000000)) \
   $((base_bytes / 1000000))

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "server/engine/cpu_count.h"
 #include "server/engine/error_reason.h"
 #include "server/engine/page_token.h"
 #include "server/engine/request_stamp.h"
@@ -163,16 +162,6 @@ TEST(IsUtf8, KnowsWellFormedSequences) {
         "\xE2\x82", "a\xFFz", "\xC3("}) {
     EXPECT_FALSE(IsUtf8(bad)) << bad;
   }
-}
-
-TEST(CpusOfQuota, RoundsAQuotaUp) {
-  EXPECT_EQ(CpusOfQuota("200000 100000"), 2);
-  EXPECT_EQ(CpusOfQuota("150000 100000"), 2);
-  EXPECT_EQ(CpusOfQuota("1000 100000"), 1);
-  for (const char* none : {"", "max 100000", "-1 100000", "100000", "1 0"}) {
-    EXPECT_FALSE(CpusOfQuota(none).has_value()) << none;
-  }
-  EXPECT_GE(AvailableCpus(), 1);
 }
 
 }  // namespace
