@@ -140,6 +140,7 @@ absl::StatusOr<std::unique_ptr<Serving>> Serving::Start(
   ARGMESH_RETURN_IF_ERROR(serving->OpenStore(stop));
   ARGMESH_ASSIGN_OR_RETURN(RpcServerOptions rpc, RpcOptionsOf(options));
   rpc.store_admin = serving->snapshots_.get();
+  rpc.operation_store = serving->operations_.get();
   if (!options.import_root.empty()) {
     ARGMESH_ASSIGN_OR_RETURN(serving->import_root_,
                              ImportRoot::Open(options.import_root));
@@ -161,6 +162,7 @@ absl::Status Serving::OpenStore(const StopToken& stop) {
                            DirectoryMeshStore::Open(directory));
   ARGMESH_ASSIGN_OR_RETURN(snapshots_,
                            SnapshotDirectory::Open(directory, *meshes));
+  ARGMESH_ASSIGN_OR_RETURN(operations_, OperationDirectory::Open(directory));
   ARGMESH_ASSIGN_OR_RETURN(std::unique_ptr<SqliteCatalog> catalog,
                            SqliteCatalog::Open(directory, {}, stop));
   ARGMESH_ASSIGN_OR_RETURN(

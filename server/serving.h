@@ -15,6 +15,7 @@
 #include "server/options.h"
 #include "server/rpc/rpc_server.h"
 #include "server/storage/import_root.h"
+#include "server/storage/operation_directory.h"
 #include "server/storage/snapshot_directory.h"
 #include "server/telemetry/metrics_endpoint.h"
 #include "server/telemetry/telemetry.h"
@@ -59,6 +60,7 @@ class Serving {
   std::unique_ptr<Telemetry> telemetry_;
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<SnapshotDirectory> snapshots_;  // uses the engine's meshes
+  std::unique_ptr<OperationDirectory> operations_;
   std::unique_ptr<ImportRoot> import_root_;
   std::unique_ptr<RpcServer> rpc_;
   std::unique_ptr<MetricsEndpoint> metrics_;  // goes first

@@ -11,8 +11,6 @@
 #include <string_view>
 #include <thread>
 
-#include "absl/strings/str_split.h"
-
 namespace argmesh {
 namespace {
 
@@ -42,7 +40,8 @@ std::optional<int> CpusOfQuota(std::string_view cpu_max) {
 std::optional<int> CpusOfCgroup(const std::filesystem::path& root,
                                 std::string_view cgroups) {
   std::filesystem::path group;  // below the root
-  for (const std::string_view line : absl::StrSplit(cgroups, '\n')) {
+  std::istringstream lines{std::string(cgroups)};
+  for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(kVersion2)) group = line.substr(kVersion2.size());
   }
   std::optional<int> least;

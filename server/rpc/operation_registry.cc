@@ -22,12 +22,9 @@ using google::longrunning::Operation;
 using google::protobuf::Any;
 
 absl::Status NotFound(std::string_view id) {
-  return MakeError(
-      ErrorReason::kOperationNotFound,
-      absl::StrFormat("there is no operation %s; operations end with the "
-                      "process",
-                      std::string(id)),
-      {{"operation", std::string(id)}});
+  return MakeError(ErrorReason::kOperationNotFound,
+                   absl::StrFormat("there is no operation %s", std::string(id)),
+                   {{"operation", std::string(id)}});
 }
 
 void SetMetadata(Operation& operation,
@@ -38,12 +35,26 @@ void SetMetadata(Operation& operation,
   operation.mutable_metadata()->PackFrom(metadata);
 }
 
+std::string IdOf(const Operation& operation) {
+  return operation.name().substr(operation.name().find('/') + 1);
+}
+
 }  // namespace
 
 Any Packed(const google::protobuf::Message& message) {
   Any any;
   any.PackFrom(message);
   return any;
+}
+
+OperationRegistry::OperationRegistry(EventLog& log, OperationStore* store)
+    : log_(log), memory_(store, log) {
+  for (Operation& operation : memory_.Recall()) {
+    const auto entry = std::make_shared<Entry>();
+    entry->operation = std::move(operation);
+    entry->number = next_number_++;
+    entries_.emplace(IdOf(entry->operation), entry);
+  }
 }
 
 OperationRegistry::~OperationRegistry() { EndAll(); }
@@ -60,6 +71,7 @@ absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
     *metadata.mutable_create_time() = ToTimestamp(absl::Now());
   });
   const Operation begun = entry->operation;
+  std::string dropped;
   {
     const std::lock_guard lock(mutex_);
     if (running_.size() >= kMaxRunning) {
@@ -74,8 +86,10 @@ absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
     running_.push_back(entry);
     entry->number = next_number_++;
     entries_.emplace(id, entry);
-    DropOldest();
+    dropped = DropOldest();
   }
+  memory_.Keep(id, begun);
+  if (!dropped.empty()) memory_.Forget(dropped);
   try {
     // Not joined: the destructor waits until none is left.
     std::thread([this, entry, work = std::move(work)] {
@@ -114,16 +128,25 @@ void OperationRegistry::End(Entry& entry, const absl::StatusOr<Any>& result) {
   log_.Write(result.ok() ? LogLevel::kInfo : LogLevel::kWarning,
              "operation ended",
              {{"operation", name}, {"status", result.status().ToString()}});
-  const std::lock_guard lock(mutex_);
-  SetMetadata(entry.operation, [](v1::OperationMetadata& metadata) {
+  Operation ended;
+  {
+    const std::lock_guard lock(mutex_);
+    ended = entry.operation;
+  }
+  SetMetadata(ended, [](v1::OperationMetadata& metadata) {
     *metadata.mutable_end_time() = ToTimestamp(absl::Now());
   });
-  entry.operation.set_done(true);
+  ended.set_done(true);
   if (result.ok()) {
-    *entry.operation.mutable_response() = *result;
+    *ended.mutable_response() = *result;
   } else {
-    *entry.operation.mutable_error() = ToProtoStatus(result.status(), name);
+    *ended.mutable_error() = ToProtoStatus(result.status(), name);
   }
+  // Before anybody is told.
+  memory_.Keep(IdOf(ended), ended);
+  const std::lock_guard lock(mutex_);
+  if (entry.forgotten) memory_.Forget(IdOf(ended));
+  entry.operation = std::move(ended);
   std::erase_if(running_,
                 [&](const auto& other) { return other.get() == &entry; });
   // Under the lock: the registry may be gone right after it.
@@ -136,8 +159,8 @@ std::shared_ptr<OperationRegistry::Entry> OperationRegistry::Find(
   return it == entries_.end() ? nullptr : it->second;
 }
 
-void OperationRegistry::DropOldest() {
-  if (entries_.size() <= kMaxKept) return;
+std::string OperationRegistry::DropOldest() {
+  if (entries_.size() <= kMaxKept) return "";
   auto oldest = entries_.end();
   for (auto it = entries_.begin(); it != entries_.end(); ++it) {
     if (!it->second->operation.done()) continue;
@@ -146,7 +169,10 @@ void OperationRegistry::DropOldest() {
       oldest = it;
     }
   }
-  if (oldest != entries_.end()) entries_.erase(oldest);
+  if (oldest == entries_.end()) return "";
+  std::string id = oldest->first;
+  entries_.erase(oldest);
+  return id;
 }
 
 absl::StatusOr<Operation> OperationRegistry::Get(std::string_view id) const {
@@ -165,10 +191,14 @@ absl::Status OperationRegistry::Cancel(std::string_view id) {
 }
 
 absl::Status OperationRegistry::Delete(std::string_view id) {
-  const std::lock_guard lock(mutex_);
-  const auto it = entries_.find(id);
-  if (it == entries_.end()) return NotFound(id);
-  entries_.erase(it);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto it = entries_.find(id);
+    if (it == entries_.end()) return NotFound(id);
+    it->second->forgotten = true;
+    entries_.erase(it);
+  }
+  memory_.Forget(id);
   return absl::OkStatus();
 }
 

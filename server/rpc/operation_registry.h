@@ -1,8 +1,8 @@
 // Long-running work: started by one call, watched and ended by others.
 //
-// Each operation has a thread of its own; at most kMaxRunning run. They live in
-// memory: what has ended is remembered until kMaxKept are, and everything ends
-// with the process. Thread-safe.
+// Each operation has a thread of its own; at most kMaxRunning run. What has
+// ended is remembered until kMaxKept are, also by the next process
+// (operation_memory.h); what runs ends with the process. Thread-safe.
 #ifndef ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
 #define ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
 
@@ -22,6 +22,8 @@
 #include "absl/status/statusor.h"
 #include "google/longrunning/operations.pb.h"
 #include "server/engine/item_run.h"
+#include "server/engine/operation_store.h"
+#include "server/rpc/operation_memory.h"
 #include "server/telemetry/event_log.h"
 
 namespace argmesh {
@@ -37,8 +39,9 @@ class OperationRegistry {
   using Work =
       std::function<absl::StatusOr<google::protobuf::Any>(const RunControl&)>;
 
-  // How operations end goes to `log`, which must outlive the registry.
-  explicit OperationRegistry(EventLog& log) : log_(log) {}
+  // With the operations that `store` has; none: it remembers its own only. How
+  // operations end goes to `log`. Both must outlive the registry.
+  explicit OperationRegistry(EventLog& log, OperationStore* store = nullptr);
   ~OperationRegistry();  // EndAll
 
   // `method` is the rpc, `resource` what it is about. OVERLOADED.
@@ -67,7 +70,8 @@ class OperationRegistry {
  private:
   struct Entry {
     google::longrunning::Operation operation;
-    int64_t number = 0;  // in the order of their starts
+    int64_t number = 0;      // in the order of their starts
+    bool forgotten = false;  // with the mutex
     std::stop_source stop;
   };
 
@@ -75,9 +79,11 @@ class OperationRegistry {
   void Report(Entry& entry, const RunProgress& progress);
   void End(Entry& entry, const absl::StatusOr<google::protobuf::Any>& result);
   std::shared_ptr<Entry> Find(std::string_view id) const;  // with the mutex
-  void DropOldest();                                       // with the mutex
+  // The id of what was dropped, if anything was. With the mutex.
+  std::string DropOldest();
 
   EventLog& log_;
+  OperationMemory memory_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
   std::map<std::string, std::shared_ptr<Entry>, std::less<>> entries_;

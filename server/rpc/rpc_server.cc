@@ -128,7 +128,8 @@ class HealthBoard {
 class RpcServer::Impl {
  public:
   Impl(const RpcServerOptions& options, Engine& engine, Telemetry& telemetry)
-      : environment_(engine, telemetry, options.version, options.limits),
+      : environment_(engine, telemetry, options.version, options.limits,
+                     options.operation_store),
         collections_(environment_),
         shapes_(environment_),
         ingest_(environment_),

@@ -20,6 +20,7 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
+#include "server/engine/operation_store.h"
 #include "server/rpc/service_environment.h"
 #include "server/rpc/transport_security.h"
 #include "server/telemetry/gauge_sheet.h"
@@ -45,6 +46,8 @@ struct RpcServerOptions {
   StoreAdmin* store_admin = nullptr;
   // Must outlive the server; none: imports are refused.
   const ImportSource* import_source = nullptr;
+  // Must outlive the server; none: operations are forgotten with it.
+  OperationStore* operation_store = nullptr;
   std::string version;
   ServiceLimits limits;
 };

@@ -9,6 +9,7 @@
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "server/engine/engine.h"
+#include "server/engine/operation_store.h"
 #include "server/engine/request_rules.h"
 #include "server/engine/store_admin.h"
 #include "server/rpc/access_control.h"
@@ -47,7 +48,8 @@ struct ServiceLimits {
 
 struct ServiceEnvironment {
   ServiceEnvironment(Engine& the_engine, Telemetry& the_telemetry,
-                     std::string the_version, const ServiceLimits& the_limits)
+                     std::string the_version, const ServiceLimits& the_limits,
+                     OperationStore* operation_store)
       : engine(the_engine),
         telemetry(the_telemetry),
         version(std::move(the_version)),
@@ -58,7 +60,7 @@ struct ServiceEnvironment {
         query_streams("query streams", the_limits.max_inflight_searches),
         uploads("uploads", the_limits.max_inflight_uploads),
         ingests("ingest streams", the_limits.max_inflight_ingests),
-        operations(the_telemetry.log()) {}
+        operations(the_telemetry.log(), operation_store) {}
 
   absl::Duration stream_idle_timeout() const {
     return absl::Milliseconds(stream_idle_ms.load());

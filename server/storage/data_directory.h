@@ -5,6 +5,7 @@
 //   catalog.db  SQLite (docs/formats.md), with -wal and -shm beside it
 //   blobs/      meshes: ab/<sha256>
 //   incoming/   meshes that are being written; emptied at every start
+//   operations/ what is remembered of operations (operation_directory.h)
 //   snapshots/  ID.tar and ID.tar.sha256 (snapshot_directory.h)
 //   restoring/  a restore under way (restore.h)
 #ifndef ARGMESH_SERVER_STORAGE_DATA_DIRECTORY_H_
@@ -66,6 +67,7 @@ class DataDirectory {
   std::filesystem::path database_path() const { return path_ / "catalog.db"; }
   std::filesystem::path blobs_path() const { return path_ / "blobs"; }
   std::filesystem::path incoming_path() const { return path_ / "incoming"; }
+  std::filesystem::path operations_path() const { return path_ / "operations"; }
   std::filesystem::path snapshots_path() const { return path_ / "snapshots"; }
 
   absl::StatusOr<int64_t> FreeBytes() const;

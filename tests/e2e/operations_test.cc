@@ -153,6 +153,29 @@ TEST_F(OperationsTest, AreListedAndCancelledByOthers) {
   EXPECT_THAT(none.err, HasSubstr("OPERATION_NOT_FOUND"));
 }
 
+TEST_F(OperationsTest, AreRememberedWhenTheServerIsKilled) {
+  ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
+  ChildProcess reindex =
+      installation_.Start({"reindex", "c", "--vertex-budget", "60000"});
+  ASSERT_TRUE(installation_.WaitForLog("CollectionService.ReindexCollection"));
+  installation_.SignalServer(SIGKILL);
+  installation_.WaitForServer();
+  reindex.Signal(SIGINT);
+  reindex.Wait();
+  ASSERT_TRUE(installation_.StartServer());
+  const CommandOutcome list =
+      installation_.Run({"operations", "list", "--json"});
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  std::map<std::string, std::string> states;
+  const nlohmann::ordered_json json = list.Json();
+  for (const auto& operation : json["operations"]) {
+    states[operation["method"]] = operation["state"];
+  }
+  EXPECT_EQ(states["IngestService.ImportShapes"], "done");
+  EXPECT_EQ(states["CollectionService.ReindexCollection"], "cancelled");
+  EXPECT_THAT(list.out, HasSubstr("the server ended before the operation"));
+}
+
 TEST_F(OperationsTest, ReindexGivesACollectionOtherSettings) {
   ASSERT_EQ(installation_.Run({"import", "--collection", "c"}).exit_code, 0);
   const std::string shape =

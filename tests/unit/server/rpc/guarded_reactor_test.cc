@@ -23,7 +23,7 @@ struct Surroundings {
   std::unique_ptr<Engine> engine =
       *Engine::Create({}, std::make_unique<MemoryCatalog>(),
                       std::make_unique<MemoryMeshStore>());
-  ServiceEnvironment environment{*engine, *telemetry, "test", {}};
+  ServiceEnvironment environment{*engine, *telemetry, "test", {}, nullptr};
   grpc::CallbackServerContext context;
 };
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <future>
+#include <map>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -63,6 +65,89 @@ TEST_F(OperationRegistryTest, HasNoMoreWhereThereIsNothing) {
   const OperationRegistry::Page page = registry_.List("", 10, 1000);
   EXPECT_TRUE(page.operations.empty());
   EXPECT_FALSE(page.more);
+}
+
+// What is kept outlives the registry.
+class MapStore : public OperationStore {
+ public:
+  absl::Status Keep(std::string_view id, std::string_view bytes) override {
+    kept_[std::string(id)] = bytes;
+    return absl::OkStatus();
+  }
+  absl::Status Forget(std::string_view id) override {
+    kept_.erase(std::string(id));
+    return absl::OkStatus();
+  }
+  absl::StatusOr<std::vector<KeptOperation>> ReadAll() const override {
+    std::vector<KeptOperation> all;
+    for (const auto& [id, bytes] : kept_) all.push_back({id, bytes});
+    return all;
+  }
+  size_t size() const { return kept_.size(); }
+
+ private:
+  std::map<std::string, std::string> kept_;
+};
+
+TEST_F(OperationRegistryTest, RemembersThoseOfTheProcessBefore) {
+  MapStore store;
+  std::string done;
+  {
+    OperationRegistry registry(log_, &store);
+    done = IdOf(*registry.Start("method", "resource", [](const RunControl&) {
+      return Packed(google::protobuf::StringValue());
+    }));
+    registry.EndAll();
+  }
+  OperationRegistry registry(log_, &store);
+  const auto operation = registry.Get(done);
+  ASSERT_TRUE(operation.ok()) << operation.status();
+  EXPECT_TRUE(operation->done());
+  EXPECT_TRUE(operation->has_response());
+  EXPECT_TRUE(registry.Delete(done).ok());
+  EXPECT_EQ(store.size(), 0U);
+}
+
+TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
+  // As it was kept when it began.
+  MapStore left;
+  const std::string id = [&] {
+    MapStore store;
+    std::promise<void> go;
+    OperationRegistry registry(log_, &store);
+    const auto begun = registry.Start("method", "", [&](const RunControl&) {
+      go.get_future().wait();
+      return Packed(google::protobuf::StringValue());
+    });
+    left = store;
+    go.set_value();
+    return IdOf(*begun);
+  }();
+  ASSERT_EQ(left.size(), 1U);
+  for (int restart = 0; restart < 2; ++restart) {
+    OperationRegistry registry(log_, &left);
+    const auto operation = registry.Get(id);
+    ASSERT_TRUE(operation.ok()) << operation.status();
+    EXPECT_TRUE(operation->done());
+    EXPECT_EQ(operation->error().code(), 1);  // CANCELLED
+    EXPECT_NE(operation->error().message().find("goes on with the rest"),
+              std::string::npos);
+    EXPECT_EQ(registry.running(), 0);
+  }
+}
+
+TEST_F(OperationRegistryTest, ForgetsAnOperationThatWasDeletedWhileItRan) {
+  MapStore store;
+  std::promise<void> go;
+  OperationRegistry registry(log_, &store);
+  const auto begun = registry.Start("method", "", [&](const RunControl&) {
+    go.get_future().wait();
+    return Packed(google::protobuf::StringValue());
+  });
+  EXPECT_TRUE(registry.Delete(IdOf(*begun)).ok());
+  go.set_value();
+  registry.EndAll();
+  EXPECT_EQ(store.size(), 0U);
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+#include "server/storage/operation_directory.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/sealed_bytes.h"
+#include "core/base/status_macros.h"
+#include "server/engine/error_reason.h"
+#include "server/engine/uid.h"
+#include "server/storage/posix_file.h"
+
+namespace argmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kUnfinished[] = ".part";
+constexpr char kMagic[] = "AOPR";
+constexpr uint32_t kVersion = 1;
+
+absl::StatusOr<std::string> ReadSealed(const fs::path& path) {
+  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file, OpenFile(path, O_RDONLY));
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t size, FileSize(file, path));
+  ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
+                           ReadAt(file, path, 0, size));
+  const auto payload = OpenSealedBytes(path.string(), kMagic, kVersion, bytes);
+  if (payload.ok()) return std::string(*payload);
+  return MakeError(ErrorReason::kStoredDataDamaged,
+                   std::string(payload.status().message()));
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<OperationDirectory>> OperationDirectory::Open(
+    std::shared_ptr<const DataDirectory> directory) {
+  const fs::path folder = directory->operations_path();
+  ARGMESH_RETURN_IF_ERROR(MakeDirectory(folder));
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (it->path().extension() == kUnfinished) ::unlink(it->path().c_str());
+  }
+  if (error) return FileError("read", folder, error.value());
+  return std::unique_ptr<OperationDirectory>(
+      new OperationDirectory(std::move(directory)));
+}
+
+absl::Status OperationDirectory::Keep(std::string_view id,
+                                      std::string_view bytes) {
+  const std::string sealed = SealBytes(kMagic, kVersion, bytes);
+  ARGMESH_ASSIGN_OR_RETURN(
+      const SpaceClaim space,
+      directory_->Claim(static_cast<int64_t>(sealed.size())));
+  const fs::path path = directory_->operations_path() / id;
+  const fs::path unfinished = absl::StrCat(path.string(), kUnfinished);
+  const std::lock_guard lock(mutex_);
+  {
+    ARGMESH_ASSIGN_OR_RETURN(
+        const PosixFile file,
+        OpenFile(unfinished, O_WRONLY | O_CREAT | O_TRUNC));
+    ARGMESH_RETURN_IF_ERROR(WriteAll(file, unfinished, sealed));
+    ARGMESH_RETURN_IF_ERROR(SyncFile(file, unfinished));
+  }
+  if (::rename(unfinished.c_str(), path.c_str()) != 0) {
+    return FileError("rename", unfinished, errno);
+  }
+  return SyncDirectory(directory_->operations_path());
+}
+
+absl::Status OperationDirectory::Forget(std::string_view id) {
+  const fs::path path = directory_->operations_path() / id;
+  const std::lock_guard lock(mutex_);
+  if (::unlink(path.c_str()) == 0 || errno == ENOENT) return absl::OkStatus();
+  return FileError("remove", path, errno);
+}
+
+absl::StatusOr<std::vector<KeptOperation>> OperationDirectory::ReadAll() const {
+  const fs::path folder = directory_->operations_path();
+  const std::lock_guard lock(mutex_);
+  std::vector<KeptOperation> kept;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string id = it->path().filename().string();
+    if (IsUid(id)) kept.push_back({id, ReadSealed(it->path())});
+  }
+  if (error) return FileError("read", folder, error.value());
+  std::sort(kept.begin(), kept.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  return kept;
+}
+
+}  // namespace argmesh
