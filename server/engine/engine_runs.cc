@@ -31,7 +31,7 @@ absl::StatusOr<RunReport> Engine::Import(const FolderImport& folder,
                                          const RunControl& control) {
   ARGMESH_RETURN_IF_ERROR(GetCollection(folder.collection).status());
   ARGMESH_ASSIGN_OR_RETURN(std::vector<std::string> files,
-                           source.ListFiles(folder.folder));
+                           source.ListFiles(folder.folder, control.stop));
   std::erase_if(files, [](const std::string& file) {
     return MeshFormatFromPath(file) == MeshFormat::kUnknown;
   });

@@ -62,10 +62,14 @@ class FairQueue {
     return next;
   }
 
-  // Work of `caller` has taken so long.
+  // Work of `caller` has taken so long. At most kMostCounted of it counts: one
+  // long search is not to wait for as many short ones as fit into it.
+  static constexpr absl::Duration kMostCounted = absl::Milliseconds(250);
   void Finished(const std::string& caller, absl::Duration elapsed) {
     const auto own = callers_.find(caller);
-    if (own != callers_.end()) own->second.last = elapsed;
+    if (own != callers_.end()) {
+      own->second.last = std::min(elapsed, kMostCounted);
+    }
   }
 
   // Makes room for `caller` where another has more waiting than it would have:

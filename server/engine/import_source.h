@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/base/stop_token.h"
 
 namespace argmesh {
 
@@ -21,9 +22,9 @@ class ImportSource {
 
   // Files at any depth below `folder` (relative to the root; empty: the root),
   // relative to it, ascending. Hidden files and folders are left out; links are
-  // listed, for Read to refuse.
+  // listed, for Read to refuse. kCancelled, kDeadlineExceeded.
   virtual absl::StatusOr<std::vector<std::string>> ListFiles(
-      const std::string& folder) const = 0;
+      const std::string& folder, const StopToken& stop) const = 0;
 
   // The bytes of one of them. kMeshTooLarge over `max_bytes`.
   virtual absl::StatusOr<std::string> Read(const std::string& folder,

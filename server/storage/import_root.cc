@@ -55,7 +55,8 @@ unsigned char TypeOf(int folder, const dirent& entry) {
 }
 
 absl::StatusOr<Entries> ReadEntries(const PosixFile& folder,
-                                    const std::string& path) {
+                                    const std::string& path,
+                                    const StopToken& stop) {
   // closedir closes the descriptor it was given.
   const int own = ::fcntl(folder.descriptor(), F_DUPFD_CLOEXEC, 0);
   DIR* stream = own < 0 ? nullptr : ::fdopendir(own);
@@ -67,6 +68,7 @@ absl::StatusOr<Entries> ReadEntries(const PosixFile& folder,
   const std::unique_ptr<DIR, int (*)(DIR*)> close_later(stream, ::closedir);
   Entries entries;
   while (true) {
+    ARGMESH_RETURN_IF_ERROR(stop.Check());
     errno = 0;
     const dirent* entry = ::readdir(stream);
     if (entry == nullptr) break;
@@ -106,7 +108,7 @@ absl::StatusOr<PosixFile> ImportRoot::OpenBelow(const std::string& path,
 }
 
 absl::StatusOr<std::vector<std::string>> ImportRoot::ListFiles(
-    const std::string& folder) const {
+    const std::string& folder, const StopToken& stop) const {
   std::vector<std::string> files;
   std::vector<std::string> left = {""};  // relative to `folder`
   while (!left.empty()) {
@@ -115,7 +117,8 @@ absl::StatusOr<std::vector<std::string>> ImportRoot::ListFiles(
     const std::string path = Join(folder, relative);
     ARGMESH_ASSIGN_OR_RETURN(const PosixFile opened,
                              OpenBelow(path, O_RDONLY | O_DIRECTORY));
-    ARGMESH_ASSIGN_OR_RETURN(const Entries entries, ReadEntries(opened, path));
+    ARGMESH_ASSIGN_OR_RETURN(const Entries entries,
+                             ReadEntries(opened, path, stop));
     for (const std::string& name : entries.folders) {
       left.push_back(Join(relative, name));
     }

@@ -23,7 +23,7 @@ class ImportRoot final : public ImportSource {
       const std::filesystem::path& root);
 
   absl::StatusOr<std::vector<std::string>> ListFiles(
-      const std::string& folder) const override;
+      const std::string& folder, const StopToken& stop) const override;
   absl::StatusOr<std::string> Read(const std::string& folder,
                                    const std::string& file,
                                    int64_t max_bytes) const override;

@@ -48,7 +48,7 @@ void FuzzPaths(const std::string& folder, const std::string& file) {
   Require(read.ok() ? *read == kInside
                     : ReasonOf(read.status()) == ErrorReason::kFileUnreadable,
           "only what is inside is read");
-  const auto listed = folders.root().ListFiles(folder);
+  const auto listed = folders.root().ListFiles(folder, {});
   if (!listed.ok()) {
     Require(ReasonOf(listed.status()) == ErrorReason::kFileUnreadable,
             "a folder that is none");

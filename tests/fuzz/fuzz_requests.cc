@@ -81,7 +81,7 @@ class Service {
   Service()
       : telemetry_(*Telemetry::Open({}, NoLog())),
         engine_(MakeEngine()),
-        environment_(*engine_, *telemetry_, "fuzz", {}),
+        environment_(*engine_, *telemetry_, "fuzz", {}, nullptr),
         admin_(environment_),
         collections_(environment_),
         ingest_(environment_),

@@ -58,6 +58,24 @@ TEST(FairQueue, ServesWhoComesNewBeforeWhoHasHadMuch) {
   EXPECT_EQ(queue.size(), 51U);
 }
 
+TEST(FairQueue, CountsNoWorkAsMoreThanAQuarterOfASecond) {
+  FairQueue<std::string> queue;
+  for (const char* work : {"1", "2", "3"}) queue.Push("long", kLate, work);
+  queue.Pop();
+  queue.Finished("long", absl::Hours(1));
+  queue.Pop();
+  // Work of 50 ms each, of another who comes again and again.
+  int before = 0;
+  queue.Push("short", kLate, "s");
+  for (auto next = queue.Pop(); next.work == "s"; next = queue.Pop()) {
+    queue.Push("short", kLate, "s");
+    queue.Finished("short", absl::Milliseconds(50));
+    ++before;
+  }
+  EXPECT_GE(before, 5);
+  EXPECT_LE(before, 7);
+}
+
 TEST(FairQueue, TakesOutWhatHasGivenUp) {
   FairQueue<std::string> queue;
   const absl::Time now = absl::UnixEpoch();

@@ -54,13 +54,15 @@ class ImportRootTest : public ::testing::Test {
 };
 
 TEST_F(ImportRootTest, ListsFilesAtAnyDepthInOrder) {
-  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles(""));
+  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles("", {}));
   EXPECT_THAT(all, ElementsAre("a.off", "cups/b.STL", "cups/deep/c.ply",
                                "cups/notes.txt"));
-  ASSERT_OK_AND_ASSIGN(const auto cups, root_->ListFiles("cups"));
+  ASSERT_OK_AND_ASSIGN(const auto cups, root_->ListFiles("cups", {}));
   EXPECT_THAT(cups, ElementsAre("b.STL", "deep/c.ply", "notes.txt"));
   fs::create_directory(folder_.path() / "root/empty");
-  ASSERT_OK_AND_ASSIGN(const auto none, root_->ListFiles("empty"));
+  ASSERT_OK_AND_ASSIGN(const auto none, root_->ListFiles("empty", {}));
+  const StopToken late({}, absl::InfinitePast());
+  EXPECT_TRUE(absl::IsDeadlineExceeded(root_->ListFiles("", late).status()));
   EXPECT_THAT(none, IsEmpty());
 }
 
@@ -91,7 +93,7 @@ TEST_F(ImportRootTest, NeverLeavesTheRoot) {
         << folder << " " << file << ": " << status;
   }
   for (const std::string folder : {"..", "cups/../..", "/", "/etc"}) {
-    EXPECT_EQ(ReasonOf(root_->ListFiles(folder).status()),
+    EXPECT_EQ(ReasonOf(root_->ListFiles(folder, {}).status()),
               ErrorReason::kFileUnreadable)
         << folder;
   }
@@ -101,7 +103,7 @@ TEST_F(ImportRootTest, FollowsNoLinkEvenToAFileBelowTheRoot) {
   Link("inside.off", "a.off");
   Link("outside.off", "../secret.off");
   Link("folder", "cups");
-  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles(""));
+  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles("", {}));
   EXPECT_THAT(all, ElementsAre("a.off", "cups/b.STL", "cups/deep/c.ply",
                                "cups/notes.txt", "folder", "inside.off",
                                "outside.off"));
@@ -111,7 +113,7 @@ TEST_F(ImportRootTest, FollowsNoLinkEvenToAFileBelowTheRoot) {
     EXPECT_THAT(std::string(status.message()), HasSubstr("over a link"));
     EXPECT_EQ(MetadataOf(status)["path"], file);
   }
-  EXPECT_EQ(ReasonOf(root_->ListFiles("folder").status()),
+  EXPECT_EQ(ReasonOf(root_->ListFiles("folder", {}).status()),
             ErrorReason::kFileUnreadable);
 }
 
@@ -122,7 +124,7 @@ TEST_F(ImportRootTest, ReadsOnlyFilesAndWaitsForNobody) {
     EXPECT_EQ(ReasonOf(ReadStatus("", file)), ErrorReason::kFileUnreadable)
         << file;
   }
-  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles(""));
+  ASSERT_OK_AND_ASSIGN(const auto all, root_->ListFiles("", {}));
   EXPECT_THAT(all, ElementsAre("a.off", "cups/b.STL", "cups/deep/c.ply",
                                "cups/notes.txt"));
 }
