@@ -97,8 +97,8 @@ class StopWhileOpening {
 };
 
 // glibc has up to eight heaps a CPU, each as large as the threads that share it
-// ever needed at once. One a CPU is enough here and settles soon: what a server
-// takes stays the same over days.
+// ever needed at once. One a CPU, two at least, are enough here and settle
+// soon: what a server takes stays the same over days.
 void LimitHeaps() {
 #ifdef M_ARENA_MAX
   mallopt(M_ARENA_MAX, std::max(2, AvailableCpus()));

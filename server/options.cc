@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <string>
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/base/status_macros.h"
 
 namespace argmesh {
 namespace {
@@ -169,13 +172,39 @@ absl::Status Invalid(const CLI::ParseError& error,
 
 const char* OnOff(bool value) { return value ? "true" : "false"; }
 
+// CLI11 takes all between the quotes as it is, but for what begins a comment.
 std::string Quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
+  return absl::StrCat("\"", text, "\"");
+}
+
+// No file can have them in a text: it would be read as another one.
+bool IsUnreadable(char c) {
+  return c == '"' || c == '#' ||
+         absl::ascii_iscntrl(static_cast<unsigned char>(c));
+}
+
+// OK when the file can have every text.
+absl::Status CheckTexts(const ServerOptions& options) {
+  for (const auto& [name, text] :
+       {std::pair("data", &options.data),
+        std::pair("import-root", &options.import_root),
+        std::pair("listen", &options.listen),
+        std::pair("port-file", &options.port_file),
+        std::pair("tls-cert", &options.tls_cert),
+        std::pair("tls-key", &options.tls_key),
+        std::pair("tls-client-ca", &options.tls_client_ca),
+        std::pair("keys", &options.keys),
+        std::pair("audit-log", &options.audit_log),
+        std::pair("trace-log", &options.trace_log),
+        std::pair("metrics-listen", &options.metrics_listen)}) {
+    if (std::any_of(text->begin(), text->end(), IsUnreadable)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--", name,
+                       " has a control character, a \" or a #, which the "
+                       "configuration file cannot have in a text"));
+    }
   }
-  return out + "\"";
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -220,6 +249,7 @@ absl::StatusOr<ParsedOptions> ParseServerOptions(
   } catch (const CLI::ParseError& error) {
     return Invalid(error, given);
   }
+  ARGMESH_RETURN_IF_ERROR(CheckTexts(options));
   options.stream_idle_timeout = absl::Seconds(seconds.stream_idle_timeout);
   options.drain_delay = absl::Seconds(seconds.drain_delay);
   options.drain_timeout = absl::Seconds(seconds.drain_timeout);

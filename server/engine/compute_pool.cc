@@ -8,7 +8,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,7 +122,6 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
                                 Work work, const std::string& caller) {
   Lane& lane = this->lane(work_class);
   absl::Status refusal;
-  Work refused;
   {
     const std::lock_guard lock(mutex_);
     if (closed_) {
@@ -137,7 +135,8 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
       const bool is_full =
           static_cast<int>(lane.queue.size()) >= lane.max_queued;
       if (is_full) refusal = Refusal("too many calls wait already", max_wait_);
-      if (!is_full || lane.queue.PushOut(caller, refused)) {
+      Work pushed_out;
+      if (!is_full || lane.queue.PushOut(caller, pushed_out)) {
         const absl::Time now = absl::Now();
         const absl::Duration quarter = (deadline - now) / 4;
         lane.queue.Push(
@@ -146,11 +145,18 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
         lane.num_queued = static_cast<int>(lane.queue.size());
         ArmTimer(lane);
         if (!is_full) return;
+        ++lane.load.refused;
+        // Of another call: not on this thread, which may hold what it needs.
+        asio::post(timers_, [pushed_out = std::move(pushed_out),
+                             refusal = std::move(refusal)]() mutable {
+          std::exchange(pushed_out, nullptr)(std::move(refusal));
+        });
+        return;
       }
     }
     ++lane.load.refused;
   }
-  (refused ? refused : work)(std::move(refusal));
+  work(std::move(refusal));
 }
 
 // Locked, so that Close finds the thread reserved and its work posted, or
@@ -165,24 +171,19 @@ void ComputePool::State::Start(Lane& lane, Work work) {
 }
 
 void ComputePool::State::Serve(Lane& lane) {
-  std::optional<std::string> served;
-  absl::Time begin;
   while (true) {
-    FairQueue<Work>::Next next;
+    Work work;
     {
       const std::lock_guard lock(mutex_);
-      if (served) lane.queue.Finished(*served, absl::Now() - begin);
       if (lane.queue.empty()) {
         --lane.load.running;
         return;
       }
-      next = lane.queue.Pop();
+      work = lane.queue.Pop();
       lane.num_queued = static_cast<int>(lane.queue.size());
       ++lane.load.admitted;
     }
-    served = next.caller;
-    begin = absl::Now();
-    next.work(absl::OkStatus());
+    work(absl::OkStatus());
   }
 }
 

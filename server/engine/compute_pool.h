@@ -9,9 +9,9 @@
 // `max_wait`) is refused with kResourceExhausted OVERLOADED and a retry delay;
 // at once when the queue of its class is full. After Close: DRAINING.
 //
-// Callers share the threads of a class by time: who asks for much makes no
-// other wait longer for it, and a full queue lets go of the newest work of the
-// one who has the most waiting (fair_queue.h).
+// Callers who wait take turns: who asks for much makes the others wait for one
+// of his at a time, and a full queue lets go of the newest work of the one who
+// has the most waiting (fair_queue.h).
 #ifndef ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 #define ARGMESH_SERVER_ENGINE_COMPUTE_POOL_H_
 
@@ -48,7 +48,8 @@ struct WorkLoad {
 class ComputePool {
  public:
   // Called exactly once: with OK on a thread of the class, or with the refusal
-  // on any thread, possibly before Submit returns. Must not throw.
+  // on any thread, possibly before its own Submit returns, never within that of
+  // another. Must not throw.
   using Work = std::function<void(absl::Status admission)>;
 
   explicit ComputePool(const ComputePoolOptions& options = {});

@@ -42,7 +42,10 @@ std::optional<int> CpusOfCgroup(const std::filesystem::path& root,
   std::filesystem::path group;  // below the root
   std::istringstream lines{std::string(cgroups)};
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(kVersion2)) group = line.substr(kVersion2.size());
+    if (line.starts_with(kVersion2)) {
+      group =
+          std::filesystem::path(line.substr(kVersion2.size())).relative_path();
+    }
   }
   std::optional<int> least;
   while (true) {

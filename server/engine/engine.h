@@ -55,7 +55,8 @@ class Engine {
   // kEtagMismatch, kRequestIdReused. Time and request are filled in here.
   absl::StatusOr<CollectionRecord> UpdateCollection(CollectionPatch patch,
                                                     const RequestKey& key = {});
-  // kCollectionNotEmpty, kEtagMismatch, kRequestIdReused; the same.
+  // kCollectionNotEmpty, kEtagMismatch, kRequestIdReused. The request is filled
+  // in here.
   absl::Status DeleteCollection(CollectionDelete removal,
                                 const RequestKey& key = {});
 

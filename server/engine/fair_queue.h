@@ -1,18 +1,13 @@
-// What waits for a thread: first of the caller who has had the least time, so
-// that one who asks for much makes nobody wait but himself.
+// What waits for a thread: in turn by caller, so that one who asks for much
+// makes nobody wait but himself.
 //
-// Start-time fair queueing, with a caller's last work as the guess of his next:
-// time that was had counts as long as anybody waits, and who comes new has had
-// as much as the one served last. Of one caller in the order it came. Not
+// Of one caller in the order it came; of several, one each in turn. Not
 // thread-safe.
-//
-// Cost     of Pop and PushOut, a look at every caller
 #ifndef ARGMESH_SERVER_ENGINE_FAIR_QUEUE_H_
 #define ARGMESH_SERVER_ENGINE_FAIR_QUEUE_H_
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <map>
 #include <string>
@@ -31,45 +26,26 @@ class FairQueue {
 
   // `work` of `caller`, which gives up at `give_up`.
   void Push(const std::string& caller, absl::Time give_up, Work work) {
-    Caller& own = callers_[caller];
-    own.had = std::max(own.had, served_);
-    own.waiting.push_back({std::move(work), give_up, pushed_++});
+    std::deque<Waiting>& own = callers_[caller];
+    if (own.empty()) turns_.push_back(caller);
+    own.push_back({std::move(work), give_up});
     ++size_;
   }
 
   // Whose turn it is; not of an empty queue.
-  struct Next {
-    std::string caller;
-    Work work;
-  };
-  Next Pop() {
-    auto first = callers_.end();
-    for (auto it = callers_.begin(); it != callers_.end(); ++it) {
-      if (it->second.waiting.empty()) continue;
-      if (first == callers_.end() || IsBefore(it->second, first->second)) {
-        first = it;
-      }
-    }
-    Caller& own = first->second;
-    Next next{first->first, std::move(own.waiting.front().work)};
-    own.waiting.pop_front();
-    served_ = own.had;
-    own.had += own.last;
-    if (--size_ == 0) callers_.clear();
-    std::erase_if(callers_, [this](const auto& caller) {
-      return caller.second.waiting.empty() && caller.second.had <= served_;
-    });
-    return next;
-  }
-
-  // Work of `caller` has taken so long. At most kMostCounted of it counts: one
-  // long search is not to wait for as many short ones as fit into it.
-  static constexpr absl::Duration kMostCounted = absl::Milliseconds(250);
-  void Finished(const std::string& caller, absl::Duration elapsed) {
+  Work Pop() {
+    const std::string caller = std::move(turns_.front());
+    turns_.pop_front();
     const auto own = callers_.find(caller);
-    if (own != callers_.end()) {
-      own->second.last = std::min(elapsed, kMostCounted);
+    Work work = std::move(own->second.front().work);
+    own->second.pop_front();
+    --size_;
+    if (own->second.empty()) {
+      callers_.erase(own);
+    } else {
+      turns_.push_back(caller);
     }
+    return work;
   }
 
   // Makes room for `caller` where another has more waiting than it would have:
@@ -77,16 +53,13 @@ class FairQueue {
   bool PushOut(const std::string& caller, Work& pushed_out) {
     const auto most = std::max_element(
         callers_.begin(), callers_.end(), [](const auto& a, const auto& b) {
-          return a.second.waiting.size() < b.second.waiting.size();
+          return a.second.size() < b.second.size();
         });
     const auto own = callers_.find(caller);
-    const size_t wanted =
-        own == callers_.end() ? 1 : own->second.waiting.size() + 1;
-    if (most == callers_.end() || most->second.waiting.size() <= wanted) {
-      return false;
-    }
-    pushed_out = std::move(most->second.waiting.back().work);
-    most->second.waiting.pop_back();
+    const size_t wanted = own == callers_.end() ? 1 : own->second.size() + 1;
+    if (most == callers_.end() || most->second.size() <= wanted) return false;
+    pushed_out = std::move(most->second.back().work);
+    most->second.pop_back();
     --size_;
     return true;
   }
@@ -94,19 +67,24 @@ class FairQueue {
   // Takes out what has given up.
   std::vector<Work> TakeLate(absl::Time now) {
     std::vector<Work> late;
-    for (auto& [caller, own] : callers_) {
+    for (auto own = callers_.begin(); own != callers_.end();) {
       std::deque<Waiting> kept;
-      for (Waiting& waiting : own.waiting) {
+      for (Waiting& waiting : own->second) {
         if (waiting.give_up <= now) {
           late.push_back(std::move(waiting.work));
         } else {
           kept.push_back(std::move(waiting));
         }
       }
-      own.waiting = std::move(kept);
+      own->second = std::move(kept);
+      if (own->second.empty()) {
+        std::erase(turns_, own->first);
+        own = callers_.erase(own);
+      } else {
+        ++own;
+      }
     }
     size_ -= late.size();
-    if (size_ == 0) callers_.clear();
     return late;
   }
 
@@ -114,7 +92,7 @@ class FairQueue {
   absl::Time FirstGiveUp() const {
     absl::Time first = absl::InfiniteFuture();
     for (const auto& [caller, own] : callers_) {
-      for (const Waiting& waiting : own.waiting) {
+      for (const Waiting& waiting : own) {
         first = std::min(first, waiting.give_up);
       }
     }
@@ -125,23 +103,10 @@ class FairQueue {
   struct Waiting {
     Work work;
     absl::Time give_up;
-    int64_t number;  // in the order they came
-  };
-  struct Caller {
-    std::deque<Waiting> waiting;
-    absl::Duration had;
-    absl::Duration last = absl::Milliseconds(1);
   };
 
-  static bool IsBefore(const Caller& a, const Caller& b) {
-    if (a.had != b.had) return a.had < b.had;
-    return a.waiting.front().number < b.waiting.front().number;
-  }
-
-  // Those who wait or are ahead of `served_`.
-  std::map<std::string, Caller> callers_;
-  absl::Duration served_;  // what the one served last had had before
-  int64_t pushed_ = 0;
+  std::map<std::string, std::deque<Waiting>> callers_;  // none is empty
+  std::deque<std::string> turns_;                       // each caller once
   size_t size_ = 0;
 };
 

@@ -16,7 +16,8 @@ namespace argmesh {
 
 struct KeptOperation {
   std::string id;
-  absl::StatusOr<std::string> bytes;  // kStoredDataDamaged
+  // kStoredDataDamaged; kStoreUnavailable, also of another version.
+  absl::StatusOr<std::string> bytes;
 };
 
 class OperationStore {

@@ -9,7 +9,6 @@
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,8 +32,6 @@ constexpr rlim_t kWantedDescriptors = 16384;
 // Nothing is taken of a host whose connection was cut, and what was taken so
 // shortly before is cut too: they come in masses.
 constexpr auto kShunned = std::chrono::seconds(1);
-
-constexpr int kAcceptNiceness = 5;
 
 // Until descriptors are looked for again.
 constexpr auto kPause = std::chrono::milliseconds(50);
@@ -222,10 +219,6 @@ void ConnectionAcceptor::Stop() {
 }
 
 void ConnectionAcceptor::Run() {
-  // Who opens connections without end must not take the CPU of the calls of
-  // those there are. That it is refused somewhere only costs fairness.
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)),
-                    kAcceptNiceness);
   std::vector<pollfd> waiting = {{wake_, POLLIN, 0}};
   for (const int listener : listeners_) {
     waiting.push_back({listener, POLLIN, 0});

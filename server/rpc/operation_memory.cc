@@ -34,8 +34,7 @@ void EndAsInterrupted(Operation& operation) {
   operation.set_done(true);
   *operation.mutable_error() = ToProtoStatus(
       MakeError(ErrorReason::kCancelled,
-                "the server ended before the operation did; the same call "
-                "goes on with the rest"));
+                "the server ended before the operation did: call again"));
 }
 
 }  // namespace
@@ -43,7 +42,10 @@ void EndAsInterrupted(Operation& operation) {
 void OperationMemory::Keep(std::string_view id, const Operation& as_is) {
   if (store_ == nullptr) return;
   const absl::Status kept = store_->Keep(id, as_is.SerializeAsString());
-  if (!kept.ok()) Warn("operation not kept", id, kept);
+  if (kept.ok()) return;
+  Warn("operation not kept", id, kept);
+  // It is not what was kept of it before.
+  Forget(id);
 }
 
 void OperationMemory::Forget(std::string_view id) {
@@ -62,9 +64,13 @@ std::vector<Operation> OperationMemory::Recall() {
   }
   for (const KeptOperation& one : *kept) {
     Operation operation;
-    if (!one.bytes.ok() || !operation.ParseFromString(*one.bytes)) {
-      Warn("operation not read", one.id, one.bytes.status());
-      Forget(one.id);
+    absl::Status read = one.bytes.status();
+    if (read.ok() && !operation.ParseFromString(*one.bytes)) {
+      read = MakeError(ErrorReason::kStoredDataDamaged, "no operation");
+    }
+    if (!read.ok()) {
+      Warn("operation not read", one.id, read);
+      if (ReasonOf(read) == ErrorReason::kStoredDataDamaged) Forget(one.id);
       continue;
     }
     if (!operation.done()) {

@@ -1,6 +1,8 @@
 #include "server/rpc/operation_registry.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -55,6 +57,7 @@ OperationRegistry::OperationRegistry(EventLog& log, OperationStore* store)
     entry->number = next_number_++;
     entries_.emplace(IdOf(entry->operation), entry);
   }
+  for (const std::string& id : DropOldest()) memory_.Forget(id);
 }
 
 OperationRegistry::~OperationRegistry() { EndAll(); }
@@ -71,7 +74,7 @@ absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
     *metadata.mutable_create_time() = ToTimestamp(absl::Now());
   });
   const Operation begun = entry->operation;
-  std::string dropped;
+  std::vector<std::string> dropped;
   {
     const std::lock_guard lock(mutex_);
     if (running_.size() >= kMaxRunning) {
@@ -89,7 +92,8 @@ absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
     dropped = DropOldest();
   }
   memory_.Keep(id, begun);
-  if (!dropped.empty()) memory_.Forget(dropped);
+  for (const std::string& oldest : dropped) memory_.Forget(oldest);
+  ForgetIfDeleted(*entry);
   try {
     // Not joined: the destructor waits until none is left.
     std::thread([this, entry, work = std::move(work)] {
@@ -144,13 +148,23 @@ void OperationRegistry::End(Entry& entry, const absl::StatusOr<Any>& result) {
   }
   // Before anybody is told.
   memory_.Keep(IdOf(ended), ended);
+  ForgetIfDeleted(entry);
   const std::lock_guard lock(mutex_);
-  if (entry.forgotten) memory_.Forget(IdOf(ended));
   entry.operation = std::move(ended);
   std::erase_if(running_,
                 [&](const auto& other) { return other.get() == &entry; });
   // Under the lock: the registry may be gone right after it.
   ended_.notify_all();
+}
+
+void OperationRegistry::ForgetIfDeleted(const Entry& entry) {
+  std::string id;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!entry.forgotten) return;
+    id = IdOf(entry.operation);
+  }
+  memory_.Forget(id);
 }
 
 std::shared_ptr<OperationRegistry::Entry> OperationRegistry::Find(
@@ -159,20 +173,23 @@ std::shared_ptr<OperationRegistry::Entry> OperationRegistry::Find(
   return it == entries_.end() ? nullptr : it->second;
 }
 
-std::string OperationRegistry::DropOldest() {
-  if (entries_.size() <= kMaxKept) return "";
-  auto oldest = entries_.end();
-  for (auto it = entries_.begin(); it != entries_.end(); ++it) {
-    if (!it->second->operation.done()) continue;
-    if (oldest == entries_.end() ||
-        it->second->number < oldest->second->number) {
-      oldest = it;
-    }
+std::vector<std::string> OperationRegistry::DropOldest() {
+  std::vector<std::pair<int64_t, std::string>> ended;  // by number
+  size_t bytes = 0;
+  for (const auto& [id, entry] : entries_) {
+    bytes += entry->operation.ByteSizeLong();
+    if (entry->operation.done()) ended.emplace_back(entry->number, id);
   }
-  if (oldest == entries_.end()) return "";
-  std::string id = oldest->first;
-  entries_.erase(oldest);
-  return id;
+  std::sort(ended.begin(), ended.end());
+  std::vector<std::string> dropped;
+  for (const auto& [number, id] : ended) {
+    if (entries_.size() <= kMaxKept && bytes <= kMaxKeptBytes) break;
+    const auto oldest = entries_.find(id);
+    bytes -= oldest->second->operation.ByteSizeLong();
+    entries_.erase(oldest);
+    dropped.push_back(id);
+  }
+  return dropped;
 }
 
 absl::StatusOr<Operation> OperationRegistry::Get(std::string_view id) const {

@@ -1,8 +1,9 @@
 // Long-running work: started by one call, watched and ended by others.
 //
 // Each operation has a thread of its own; at most kMaxRunning run. What has
-// ended is remembered until kMaxKept are, also by the next process
-// (operation_memory.h); what runs ends with the process. Thread-safe.
+// ended is remembered until there are kMaxKept, or kMaxKeptBytes, also by the
+// next process (operation_memory.h); what runs ends with the process.
+// Thread-safe.
 #ifndef ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
 #define ARGMESH_SERVER_RPC_OPERATION_REGISTRY_H_
 
@@ -34,6 +35,7 @@ class OperationRegistry {
  public:
   static constexpr size_t kMaxRunning = 4;
   static constexpr size_t kMaxKept = 1000;
+  static constexpr size_t kMaxKeptBytes = 64 << 20;
 
   // The response, packed. What it reports is in the operation's metadata.
   using Work =
@@ -78,9 +80,10 @@ class OperationRegistry {
   void Run(const std::shared_ptr<Entry>& entry, const Work& work);
   void Report(Entry& entry, const RunProgress& progress);
   void End(Entry& entry, const absl::StatusOr<google::protobuf::Any>& result);
+  void ForgetIfDeleted(const Entry& entry);
   std::shared_ptr<Entry> Find(std::string_view id) const;  // with the mutex
-  // The id of what was dropped, if anything was. With the mutex.
-  std::string DropOldest();
+  // Of what has ended, as much as is too much; the ids. With the mutex.
+  std::vector<std::string> DropOldest();
 
   EventLog& log_;
   OperationMemory memory_;

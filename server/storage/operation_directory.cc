@@ -35,8 +35,17 @@ absl::StatusOr<std::string> ReadSealed(const fs::path& path) {
                            ReadAt(file, path, 0, size));
   const auto payload = OpenSealedBytes(path.string(), kMagic, kVersion, bytes);
   if (payload.ok()) return std::string(*payload);
-  return MakeError(ErrorReason::kStoredDataDamaged,
+  return MakeError(absl::IsDataLoss(payload.status())
+                       ? ErrorReason::kStoredDataDamaged
+                       : ErrorReason::kStoreUnavailable,
                    std::string(payload.status().message()));
+}
+
+absl::Status WriteDurably(const fs::path& path, const std::string& bytes) {
+  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file,
+                           OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC));
+  ARGMESH_RETURN_IF_ERROR(WriteAll(file, path, bytes));
+  return SyncFile(file, path);
 }
 
 }  // namespace
@@ -64,15 +73,13 @@ absl::Status OperationDirectory::Keep(std::string_view id,
   const fs::path path = directory_->operations_path() / id;
   const fs::path unfinished = absl::StrCat(path.string(), kUnfinished);
   const std::lock_guard lock(mutex_);
-  {
-    ARGMESH_ASSIGN_OR_RETURN(
-        const PosixFile file,
-        OpenFile(unfinished, O_WRONLY | O_CREAT | O_TRUNC));
-    ARGMESH_RETURN_IF_ERROR(WriteAll(file, unfinished, sealed));
-    ARGMESH_RETURN_IF_ERROR(SyncFile(file, unfinished));
+  absl::Status written = WriteDurably(unfinished, sealed);
+  if (written.ok() && ::rename(unfinished.c_str(), path.c_str()) != 0) {
+    written = FileError("rename", unfinished, errno);
   }
-  if (::rename(unfinished.c_str(), path.c_str()) != 0) {
-    return FileError("rename", unfinished, errno);
+  if (!written.ok()) {
+    ::unlink(unfinished.c_str());
+    return written;
   }
   return SyncDirectory(directory_->operations_path());
 }

@@ -24,8 +24,8 @@ absl::Status RememberRequest(SqliteConnection& connection,
                              const RequestStamp& request,
                              std::string_view answer);
 
-// What `write` answers, remembered with it; for a request that was made before
-// the remembered answer.
+// What `write` answers, remembered with it; for a request that was made before,
+// the answer that is remembered.
 template <typename Answer, typename Write>
 absl::StatusOr<Answer> WriteOnce(
     SqliteConnection& connection, const RequestStamp& request,

@@ -391,18 +391,19 @@ TEST_F(HostilePeersTest, FloodOfPings) {
       FrameBytes(Http2Frame::kPing, 0, 0, std::string(8, 'p'));
   std::string pings;
   for (int i = 0; i < 10'000; ++i) pings += ping;
-  Endure("8 peers, 1,000,000 pings each", 768 * kMebibyte, [&] {
-    Repeat([&] {
-      for (int i = 0; i < 8; ++i) {
-        Http2Peer peer(service_->address());
-        peer.Send(Http2Hello(0) + Http2Call(1, kUpload));
-        for (int round = 0; round < 100 && peer.Send(pings); ++round) {
-        }
-        peer.Read(seconds(5));
-        EXPECT_TRUE(peer.closed());
-      }
-    });
-  });
+  Endure("peers that send 1,000,000 pings, one after the other",
+         768 * kMebibyte, [&] {
+           Repeat([&] {
+             for (int i = 0; i < 8; ++i) {
+               Http2Peer peer(service_->address());
+               peer.Send(Http2Hello(0) + Http2Call(1, kUpload));
+               for (int round = 0; round < 100 && peer.Send(pings); ++round) {
+               }
+               peer.Read(seconds(5));
+               EXPECT_TRUE(peer.closed());
+             }
+           });
+         });
 }
 
 TEST_F(HostilePeersTest, AnswersThatNobodyTakes) {

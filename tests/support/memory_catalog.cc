@@ -27,6 +27,13 @@ absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
   return ShapeExistsError(put.record.collection, put.record.id);
 }
 
+// What a retry answers.
+absl::StatusOr<ShapeWritten> ParseFirst(std::string_view answer) {
+  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(answer));
+  first.written = false;
+  return first;
+}
+
 }  // namespace
 
 absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
@@ -124,8 +131,9 @@ ScannedGraph MemoryCatalog::Scan(const Collection& collection,
 absl::StatusOr<CollectionRecord> MemoryCatalog::InsertCollection(
     const CollectionRecord& record, const RequestStamp& request) {
   const auto write = [&]() -> absl::StatusOr<CollectionRecord> {
-    if (collections_.contains(record.id))
+    if (collections_.contains(record.id)) {
       return CollectionExistsError(record.id);
+    }
     collections_[record.id].record = record;
     return record;
   };
@@ -230,11 +238,7 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   ARGMESH_RETURN_IF_ERROR(std::exchange(next_put_, absl::OkStatus()));
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
                            Recall(put.request));
-  if (answer) {
-    ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(*answer));
-    first.written = false;
-    return first;
-  }
+  if (answer) return ParseFirst(*answer);
   ARGMESH_ASSIGN_OR_RETURN(Collection * collection,
                            Find(put.record.collection, put.collection_uid));
   const auto it = collection->shapes.find(put.record.id);
@@ -290,8 +294,8 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::UpdateShape(
         LogChange(*collection, patch.id, ShapeChange::Kind::kPut);
     return ShapeWritten{record, collection->record.uid, true, {}};
   };
-  return Once<ShapeWritten>(patch.request, ParseShapeWritten,
-                            SerializeShapeWritten, write);
+  return Once<ShapeWritten>(patch.request, ParseFirst, SerializeShapeWritten,
+                            write);
 }
 
 absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(

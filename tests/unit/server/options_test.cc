@@ -128,9 +128,20 @@ TEST_F(ServerOptionsTest, NamesTheVariableThatIsWrong) {
   EXPECT_THAT(std::string(parsed.status().message()), HasSubstr("environment"));
 }
 
+TEST_F(ServerOptionsTest, RefusesATextThatNoFileCanHave) {
+  // As CLI11 reads a text with a # in it.
+  EXPECT_FALSE(Parse({WriteFile("data=\"/srv/parts#2\"\n")}).ok());
+  for (const char* text : {"a\nb", "a\x7f", "\"", "/srv/parts#2"}) {
+    const auto parsed = Parse({"--port-file", text});
+    ASSERT_FALSE(parsed.ok()) << text;
+    EXPECT_THAT(std::string(parsed.status().message()),
+                HasSubstr("--port-file has a control character"));
+  }
+}
+
 TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
   const auto first = Parse({"--data",
-                            "/a \"quoted\" folder",
+                            "/a 'quoted' folder",
                             "--threads",
                             "5",
                             "--drain-delay",
@@ -178,6 +189,17 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
   EXPECT_EQ(second->options.max_log_bytes, 7000);
   EXPECT_EQ(second->options.metrics_listen, "127.0.0.1:9464");
   EXPECT_EQ(second->options.import_root, "/srv/meshes");
+}
+
+TEST_F(ServerOptionsTest, ReadsBackEveryText) {
+  for (const char* text : {"'", "a\\b", "a\\", "it's", " a ", "[a,b]", "a;b",
+                           "a=b", "{}", "'a'", "%{a}"}) {
+    const auto first = Parse({"--port-file", text});
+    ASSERT_TRUE(first.ok()) << first.status();
+    const auto second = Parse({WriteFile(FormatServerOptions(first->options))});
+    ASSERT_TRUE(second.ok()) << second.status();
+    EXPECT_EQ(second->options.port_file, text);
+  }
 }
 
 TEST_F(ServerOptionsTest, AnswersHelpAndVersion) {

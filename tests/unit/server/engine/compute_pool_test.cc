@@ -95,7 +95,7 @@ TEST(ComputePool, RefusesAtOnceWhenItsQueueIsFull) {
   blocker.Release();
 }
 
-TEST(ComputePool, SharesItsThreadsAmongCallers) {
+TEST(ComputePool, LetsCallersTakeTurns) {
   std::mutex mutex;
   std::string order;
   std::vector<std::promise<void>> done(5);
@@ -146,6 +146,36 @@ TEST(ComputePool, LetsTheOneWithTheMostGoWhenItsQueueIsFull) {
   EXPECT_EQ(outcome,
             (std::vector<std::string>{"a2 refused", "b4 refused", "a5 refused",
                                       "a0 ran", "b3 ran", "a1 ran"}));
+}
+
+// Takes a lock when it goes.
+struct LocksAtItsEnd {
+  std::mutex& mutex;
+  std::promise<void>& gone;
+  ~LocksAtItsEnd() {
+    { const std::lock_guard lock(mutex); }
+    gone.set_value();
+  }
+};
+
+TEST(ComputePool, LetsAnothersWorkGoOutsideOfSubmit) {
+  std::mutex mutex;
+  std::promise<void> gone;
+  ComputePool pool(Threads(1, 2));
+  Blocker blocker(pool, WorkClass::kSearch);
+  const auto nothing = [](const absl::Status&) {};
+  pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(), nothing, "much");
+  pool.Submit(
+      WorkClass::kSearch, absl::InfiniteFuture(),
+      [end = std::shared_ptr<LocksAtItsEnd>(new LocksAtItsEnd{mutex, gone})](
+          const absl::Status& status) { EXPECT_FALSE(status.ok()); },
+      "much");
+  {
+    const std::lock_guard lock(mutex);
+    pool.Submit(WorkClass::kSearch, absl::InfiniteFuture(), nothing, "little");
+  }
+  gone.get_future().wait();
+  blocker.Release();
 }
 
 TEST(ComputePool, RefusesWhatWaitedAQuarterOfItsTime) {

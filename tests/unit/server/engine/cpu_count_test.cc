@@ -39,6 +39,7 @@ TEST(CpusOfCgroup, IsTheSmallestOfAllAround) {
   WriteQuota(root.path(), "100000 100000");
   EXPECT_EQ(CpusOfCgroup(root.path(), "1:cpu:/elsewhere\n0::/\n"), 1);
   EXPECT_EQ(CpusOfCgroup(root.path(), own), 1);
+  EXPECT_EQ(CpusOfCgroup(root.path(), "0:://x\n"), 1);
 }
 
 }  // namespace

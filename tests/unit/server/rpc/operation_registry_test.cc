@@ -130,7 +130,7 @@ TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
     ASSERT_TRUE(operation.ok()) << operation.status();
     EXPECT_TRUE(operation->done());
     EXPECT_EQ(operation->error().code(), 1);  // CANCELLED
-    EXPECT_NE(operation->error().message().find("goes on with the rest"),
+    EXPECT_NE(operation->error().message().find("call again"),
               std::string::npos);
     EXPECT_EQ(registry.running(), 0);
   }
