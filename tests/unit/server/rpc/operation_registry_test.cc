@@ -114,9 +114,10 @@ TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
   const std::string id = [&] {
     MapStore store;
     std::promise<void> go;
+    const std::shared_future<void> gone = go.get_future().share();
     OperationRegistry registry(log_, &store);
     const auto begun = registry.Start("method", "", [&](const RunControl&) {
-      go.get_future().wait();
+      gone.wait();
       return Packed(google::protobuf::StringValue());
     });
     left = store;
@@ -139,9 +140,10 @@ TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
 TEST_F(OperationRegistryTest, ForgetsAnOperationThatWasDeletedWhileItRan) {
   MapStore store;
   std::promise<void> go;
+  const std::shared_future<void> gone = go.get_future().share();
   OperationRegistry registry(log_, &store);
   const auto begun = registry.Start("method", "", [&](const RunControl&) {
-    go.get_future().wait();
+    gone.wait();
     return Packed(google::protobuf::StringValue());
   });
   EXPECT_TRUE(registry.Delete(IdOf(*begun)).ok());
