@@ -21,7 +21,7 @@ for name in "${names[@]}"; do
   log=$(mktemp)
   outcome="no finding"
   start=$SECONDS
-  "$programs/$name" -runs="$executions" -timeout=20 -rss_limit_mb=4096 \
+  "$programs/$name" -runs="$executions" -timeout=60 -rss_limit_mb=4096 \
     -max_len=20000 -print_final_stats=1 \
     -artifact_prefix="$programs/../findings/$name-" "$corpus" >"$log" 2>&1 || {
     outcome="BROKEN, see $log"

@@ -163,6 +163,12 @@ std::unique_ptr<Message> ParseRequest(const UnaryMethod& method,
 }  // namespace
 }  // namespace argmesh
 
+// Outside of the first run, whose time is limited.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  argmesh::TheService();
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using argmesh::TheService;
   if (size == 0) return 0;
