@@ -92,6 +92,11 @@ class ComputePool::State {
     asio::steady_timer timer;
   };
 
+  absl::Status TooManyWait() const {
+    return Refusal("too many calls wait already", max_wait_);
+  }
+  // Locked; whether `caller` may wait, at the cost of another if need be.
+  bool MakeRoom(Lane& lane, const std::string& caller);
   Lane& lane(WorkClass c) const { return *lanes_[static_cast<size_t>(c)]; }
   void Start(Lane& lane, Work work);  // locked; a thread is reserved
   void Serve(Lane& lane);             // takes what waits, frees the thread
@@ -131,32 +136,33 @@ void ComputePool::State::Submit(WorkClass work_class, absl::Time deadline,
       ++lane.load.admitted;
       Start(lane, std::move(work));
       return;
+    } else if (MakeRoom(lane, caller)) {
+      const absl::Time now = absl::Now();
+      const absl::Duration quarter = (deadline - now) / 4;
+      lane.queue.Push(
+          caller, now + std::clamp(quarter, absl::ZeroDuration(), max_wait_),
+          std::move(work));
+      lane.num_queued = static_cast<int>(lane.queue.size());
+      ArmTimer(lane);
+      return;
     } else {
-      const bool is_full =
-          static_cast<int>(lane.queue.size()) >= lane.max_queued;
-      if (is_full) refusal = Refusal("too many calls wait already", max_wait_);
-      Work pushed_out;
-      if (!is_full || lane.queue.PushOut(caller, pushed_out)) {
-        const absl::Time now = absl::Now();
-        const absl::Duration quarter = (deadline - now) / 4;
-        lane.queue.Push(
-            caller, now + std::clamp(quarter, absl::ZeroDuration(), max_wait_),
-            std::move(work));
-        lane.num_queued = static_cast<int>(lane.queue.size());
-        ArmTimer(lane);
-        if (!is_full) return;
-        ++lane.load.refused;
-        // Of another call: not on this thread, which may hold what it needs.
-        asio::post(timers_, [pushed_out = std::move(pushed_out),
-                             refusal = std::move(refusal)]() mutable {
-          std::exchange(pushed_out, nullptr)(std::move(refusal));
-        });
-        return;
-      }
+      refusal = TooManyWait();
     }
     ++lane.load.refused;
   }
   work(std::move(refusal));
+}
+
+bool ComputePool::State::MakeRoom(Lane& lane, const std::string& caller) {
+  if (static_cast<int>(lane.queue.size()) < lane.max_queued) return true;
+  Work pushed_out;
+  if (!lane.queue.PushOut(caller, pushed_out)) return false;
+  ++lane.load.refused;
+  // Of another call: not on this thread, which may hold what it needs.
+  asio::post(timers_, [this, pushed_out = std::move(pushed_out)]() mutable {
+    std::exchange(pushed_out, nullptr)(TooManyWait());
+  });
+  return true;
 }
 
 // Locked, so that Close finds the thread reserved and its work posted, or

@@ -1,7 +1,6 @@
 // How many CPUs this process may really use: the smallest of its affinity and
-// the quotas of its cgroups (rounded up; of version 1 the root's only), at
-// least
-// 1. Read once at the start.
+// the quotas of its cgroups (rounded up; of version 1 the root's only), and at
+// least 1. Read once at the start.
 #ifndef ARGMESH_SERVER_ENGINE_CPU_COUNT_H_
 #define ARGMESH_SERVER_ENGINE_CPU_COUNT_H_
 

@@ -180,10 +180,7 @@ absl::StatusOr<ShapeRecord> Engine::UpdateShape(ShapePatch patch,
                                      OptionalField(patch.source_uri)};
   if (patch.metadata) {
     fields.emplace_back("metadata");
-    for (const auto& [name, value] : *patch.metadata) {
-      fields.push_back(name);
-      fields.push_back(value);
-    }
+    AddFields(*patch.metadata, fields);
   }
   ARGMESH_ASSIGN_OR_RETURN(patch.request,
                            parts_->Stamp(key, "UpdateShape", fields));

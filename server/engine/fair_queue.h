@@ -1,8 +1,7 @@
 // What waits for a thread: in turn by caller, so that one who asks for much
-// makes nobody wait but himself.
+// makes the others wait for one of his at a time.
 //
-// Of one caller in the order it came; of several, one each in turn. Not
-// thread-safe.
+// Of one caller in the order it came. Not thread-safe.
 #ifndef ARGMESH_SERVER_ENGINE_FAIR_QUEUE_H_
 #define ARGMESH_SERVER_ENGINE_FAIR_QUEUE_H_
 

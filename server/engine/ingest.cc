@@ -31,10 +31,7 @@ std::vector<std::string> RequestFields(const NewShape& shape,
       ToHex(sha256),
       absl::StrFormat("%d", static_cast<int>(shape.if_exists)),
       shape.etag};
-  for (const auto& [key, value] : shape.metadata) {
-    fields.push_back(key);
-    fields.push_back(value);
-  }
+  AddFields(shape.metadata, fields);
   return fields;
 }
 

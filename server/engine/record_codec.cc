@@ -320,6 +320,7 @@ std::string SerializeShapeWritten(const ShapeWritten& written) {
 absl::StatusOr<ShapeWritten> ParseShapeWritten(std::string_view bytes) {
   FieldReader reader(bytes, "remembered shape");
   ShapeWritten written;
+  written.written = false;
   reader.Field(written.collection_uid);
   VisitShape(reader, written.record);
   ARGMESH_RETURN_IF_ERROR(reader.Finish());

@@ -36,7 +36,8 @@ absl::StatusOr<ShapeRecord> ParseShapeRecord(std::string_view bytes);
 std::string SerializeCollectionRecord(const CollectionRecord& record);
 absl::StatusOr<CollectionRecord> ParseCollectionRecord(std::string_view bytes);
 
-// Remembered answers: without the meshes that became unreferenced.
+// Remembered answers: without the meshes that became unreferenced, and a shape
+// that is read was not written now.
 std::string SerializeShapeWritten(const ShapeWritten& written);
 absl::StatusOr<ShapeWritten> ParseShapeWritten(std::string_view bytes);
 std::string SerializeShapeDeleted(const ShapeDeleted& deleted);

@@ -32,4 +32,12 @@ absl::StatusOr<RequestStamp> StampRequest(
   return stamp;
 }
 
+void AddFields(const std::map<std::string, std::string>& metadata,
+               std::vector<std::string>& fields) {
+  for (const auto& [key, value] : metadata) {
+    fields.push_back(key);
+    fields.push_back(value);
+  }
+}
+
 }  // namespace argmesh

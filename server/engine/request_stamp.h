@@ -2,6 +2,7 @@
 #ifndef ARGMESH_SERVER_ENGINE_REQUEST_STAMP_H_
 #define ARGMESH_SERVER_ENGINE_REQUEST_STAMP_H_
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,10 @@ namespace argmesh {
 absl::StatusOr<RequestStamp> StampRequest(
     const RequestKey& key, std::string_view method,
     const std::vector<std::string>& fields, absl::Time expire_time);
+
+// Key after key with its value.
+void AddFields(const std::map<std::string, std::string>& metadata,
+               std::vector<std::string>& fields);
 
 }  // namespace argmesh
 

@@ -1,41 +1,17 @@
 #include "server/rpc/operation_memory.h"
 
-#include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
-#include "absl/time/clock.h"
-#include "argmesh/v1/admin_service.pb.h"
+#include "absl/time/time.h"
 #include "server/engine/error_reason.h"
-#include "server/rpc/convert_mesh.h"
-#include "server/rpc/status.h"
+#include "server/rpc/operation_record.h"
 
 namespace argmesh {
 namespace {
 
 using google::longrunning::Operation;
-
-v1::OperationMetadata MetadataOf(const Operation& operation) {
-  v1::OperationMetadata metadata;
-  operation.metadata().UnpackTo(&metadata);
-  return metadata;
-}
-
-absl::Time Began(const Operation& operation) {
-  const auto& time = MetadataOf(operation).create_time();
-  return absl::FromUnixSeconds(time.seconds()) +
-         absl::Nanoseconds(time.nanos());
-}
-
-void EndAsInterrupted(Operation& operation) {
-  v1::OperationMetadata metadata = MetadataOf(operation);
-  *metadata.mutable_end_time() = ToTimestamp(absl::Now());
-  operation.mutable_metadata()->PackFrom(metadata);
-  operation.set_done(true);
-  *operation.mutable_error() = ToProtoStatus(
-      MakeError(ErrorReason::kCancelled,
-                "the server ended before the operation did: call again"));
-}
 
 }  // namespace
 
@@ -55,13 +31,13 @@ void OperationMemory::Forget(std::string_view id) {
 }
 
 std::vector<Operation> OperationMemory::Recall() {
-  std::vector<Operation> operations;
-  if (store_ == nullptr) return operations;
+  if (store_ == nullptr) return {};
   const auto kept = store_->ReadAll();
   if (!kept.ok()) {
     Warn("operations not read", "", kept.status());
-    return operations;
+    return {};
   }
+  std::multimap<absl::Time, Operation> by_begin;
   for (const KeptOperation& one : *kept) {
     Operation operation;
     absl::Status read = one.bytes.status();
@@ -74,15 +50,20 @@ std::vector<Operation> OperationMemory::Recall() {
       continue;
     }
     if (!operation.done()) {
-      EndAsInterrupted(operation);
+      EndOperation(operation,
+                   MakeError(ErrorReason::kCancelled,
+                             "the server ended before the operation did: call "
+                             "again"));
       Keep(one.id, operation);
     }
+    const absl::Time begin = BeginTime(operation);
+    by_begin.emplace(begin, std::move(operation));
+  }
+  std::vector<Operation> operations;
+  operations.reserve(by_begin.size());
+  for (auto& [begin, operation] : by_begin) {
     operations.push_back(std::move(operation));
   }
-  std::stable_sort(operations.begin(), operations.end(),
-                   [](const Operation& a, const Operation& b) {
-                     return Began(a) < Began(b);
-                   });
   return operations;
 }
 

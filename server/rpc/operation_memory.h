@@ -2,9 +2,8 @@
 //
 // An operation is kept as it begins and as it ends. One that the store has as
 // begun was not ended by its process: it is remembered as cancelled, and says
-// why. What cannot be kept is said in the log and forgotten; the operation goes
-// on.
-// Thread-safe; calls block for about one write to the disk.
+// why. What cannot be kept is said in the log and forgotten; the operation
+// goes on. Thread-safe; calls block for about one write to the disk.
 #ifndef ARGMESH_SERVER_RPC_OPERATION_MEMORY_H_
 #define ARGMESH_SERVER_RPC_OPERATION_MEMORY_H_
 

@@ -14,8 +14,8 @@
 #include "server/engine/uid.h"
 #include "server/rpc/call_scope.h"
 #include "server/rpc/convert_mesh.h"
+#include "server/rpc/operation_record.h"
 #include "server/rpc/resource_name.h"
-#include "server/rpc/status.h"
 
 namespace argmesh {
 namespace {
@@ -27,18 +27,6 @@ absl::Status NotFound(std::string_view id) {
   return MakeError(ErrorReason::kOperationNotFound,
                    absl::StrFormat("there is no operation %s", std::string(id)),
                    {{"operation", std::string(id)}});
-}
-
-void SetMetadata(Operation& operation,
-                 const std::function<void(v1::OperationMetadata&)>& change) {
-  v1::OperationMetadata metadata;
-  operation.metadata().UnpackTo(&metadata);
-  change(metadata);
-  operation.mutable_metadata()->PackFrom(metadata);
-}
-
-std::string IdOf(const Operation& operation) {
-  return operation.name().substr(operation.name().find('/') + 1);
 }
 
 }  // namespace
@@ -55,7 +43,7 @@ OperationRegistry::OperationRegistry(EventLog& log, OperationStore* store)
     const auto entry = std::make_shared<Entry>();
     entry->operation = std::move(operation);
     entry->number = next_number_++;
-    entries_.emplace(IdOf(entry->operation), entry);
+    entries_.emplace(OperationId(entry->operation), entry);
   }
   for (const std::string& id : DropOldest()) memory_.Forget(id);
 }
@@ -68,7 +56,7 @@ absl::StatusOr<Operation> OperationRegistry::Start(std::string_view method,
   const std::string id = MakeUid();
   auto entry = std::make_shared<Entry>();
   entry->operation.set_name(OperationName(id));
-  SetMetadata(entry->operation, [&](v1::OperationMetadata& metadata) {
+  ChangeMetadata(entry->operation, [&](v1::OperationMetadata& metadata) {
     metadata.set_method(std::string(method));
     metadata.set_resource(std::string(resource));
     *metadata.mutable_create_time() = ToTimestamp(absl::Now());
@@ -120,7 +108,7 @@ void OperationRegistry::Run(const std::shared_ptr<Entry>& entry,
 
 void OperationRegistry::Report(Entry& entry, const RunProgress& progress) {
   const std::lock_guard lock(mutex_);
-  SetMetadata(entry.operation, [&](v1::OperationMetadata& metadata) {
+  ChangeMetadata(entry.operation, [&](v1::OperationMetadata& metadata) {
     metadata.set_items(progress.items);
     metadata.set_items_done(progress.done);
     metadata.set_items_failed(progress.failed);
@@ -137,17 +125,9 @@ void OperationRegistry::End(Entry& entry, const absl::StatusOr<Any>& result) {
     const std::lock_guard lock(mutex_);
     ended = entry.operation;
   }
-  SetMetadata(ended, [](v1::OperationMetadata& metadata) {
-    *metadata.mutable_end_time() = ToTimestamp(absl::Now());
-  });
-  ended.set_done(true);
-  if (result.ok()) {
-    *ended.mutable_response() = *result;
-  } else {
-    *ended.mutable_error() = ToProtoStatus(result.status(), name);
-  }
+  EndOperation(ended, result);
   // Before anybody is told.
-  memory_.Keep(IdOf(ended), ended);
+  memory_.Keep(OperationId(ended), ended);
   ForgetIfDeleted(entry);
   const std::lock_guard lock(mutex_);
   entry.operation = std::move(ended);
@@ -162,7 +142,7 @@ void OperationRegistry::ForgetIfDeleted(const Entry& entry) {
   {
     const std::lock_guard lock(mutex_);
     if (!entry.forgotten) return;
-    id = IdOf(entry.operation);
+    id = OperationId(entry.operation);
   }
   memory_.Forget(id);
 }

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "core/base/sealed_bytes.h"
 #include "core/base/status_macros.h"
 #include "server/engine/error_reason.h"
@@ -24,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kUnfinished[] = ".part";
 constexpr char kMagic[] = "AOPR";
 constexpr uint32_t kVersion = 1;
 
@@ -41,13 +38,6 @@ absl::StatusOr<std::string> ReadSealed(const fs::path& path) {
                    std::string(payload.status().message()));
 }
 
-absl::Status WriteDurably(const fs::path& path, const std::string& bytes) {
-  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file,
-                           OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC));
-  ARGMESH_RETURN_IF_ERROR(WriteAll(file, path, bytes));
-  return SyncFile(file, path);
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<OperationDirectory>> OperationDirectory::Open(
@@ -57,7 +47,8 @@ absl::StatusOr<std::unique_ptr<OperationDirectory>> OperationDirectory::Open(
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end;
        it.increment(error)) {
-    if (it->path().extension() == kUnfinished) ::unlink(it->path().c_str());
+    if (it->path().extension() == kUnfinishedSuffix)
+      ::unlink(it->path().c_str());
   }
   if (error) return FileError("read", folder, error.value());
   return std::unique_ptr<OperationDirectory>(
@@ -70,18 +61,8 @@ absl::Status OperationDirectory::Keep(std::string_view id,
   ARGMESH_ASSIGN_OR_RETURN(
       const SpaceClaim space,
       directory_->Claim(static_cast<int64_t>(sealed.size())));
-  const fs::path path = directory_->operations_path() / id;
-  const fs::path unfinished = absl::StrCat(path.string(), kUnfinished);
   const std::lock_guard lock(mutex_);
-  absl::Status written = WriteDurably(unfinished, sealed);
-  if (written.ok() && ::rename(unfinished.c_str(), path.c_str()) != 0) {
-    written = FileError("rename", unfinished, errno);
-  }
-  if (!written.ok()) {
-    ::unlink(unfinished.c_str());
-    return written;
-  }
-  return SyncDirectory(directory_->operations_path());
+  return ReplaceFile(directory_->operations_path() / id, sealed);
 }
 
 absl::Status OperationDirectory::Forget(std::string_view id) {

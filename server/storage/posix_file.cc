@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -91,6 +93,28 @@ absl::Status SyncFile(const PosixFile& file,
                       const std::filesystem::path& path) {
   if (::fsync(file.descriptor()) == 0) return absl::OkStatus();
   return FileError("fsync", path, errno);
+}
+
+absl::Status WriteFile(const std::filesystem::path& path,
+                       std::string_view bytes) {
+  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file,
+                           OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC));
+  ARGMESH_RETURN_IF_ERROR(WriteAll(file, path, bytes));
+  return SyncFile(file, path);
+}
+
+absl::Status ReplaceFile(const std::filesystem::path& path,
+                         std::string_view bytes) {
+  const std::filesystem::path unfinished = path.string() + kUnfinishedSuffix;
+  absl::Status written = WriteFile(unfinished, bytes);
+  if (written.ok() && std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    written = FileError("rename", path, errno);
+  }
+  if (!written.ok()) {
+    ::unlink(unfinished.c_str());
+    return written;
+  }
+  return SyncDirectory(path.parent_path());
 }
 
 absl::Status SyncDirectory(const std::filesystem::path& path) {

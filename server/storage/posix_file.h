@@ -47,6 +47,14 @@ absl::StatusOr<std::string> ReadAt(const PosixFile& file,
 absl::StatusOr<int64_t> FileSize(const PosixFile& file,
                                  const std::filesystem::path& path);
 absl::Status SyncFile(const PosixFile& file, const std::filesystem::path& path);
+// The file has these bytes, and they are durable; its name may not be yet.
+absl::Status WriteFile(const std::filesystem::path& path,
+                       std::string_view bytes);
+// The file has these bytes, durably; until then it is as it was. They are
+// written beside it, to its name and kUnfinishedSuffix.
+inline constexpr char kUnfinishedSuffix[] = ".part";
+absl::Status ReplaceFile(const std::filesystem::path& path,
+                         std::string_view bytes);
 // Makes names that were created, renamed or removed in it durable.
 absl::Status SyncDirectory(const std::filesystem::path& path);
 // Makes `path` durable when it is new; the folder above must exist.

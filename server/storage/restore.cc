@@ -135,16 +135,7 @@ absl::Status CheckUnpacked(const fs::path& snapshot, const fs::path& folder,
 }
 
 absl::Status MarkComplete(const fs::path& folder, const std::string& kept) {
-  const fs::path path = folder / kComplete;
-  const fs::path unfinished = folder / "complete.part";
-  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file,
-                           OpenFile(unfinished, O_WRONLY | O_CREAT | O_TRUNC));
-  ARGMESH_RETURN_IF_ERROR(WriteAll(file, unfinished, kept + "\n"));
-  ARGMESH_RETURN_IF_ERROR(SyncFile(file, unfinished));
-  if (std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    return FileError("rename", path, errno);
-  }
-  return SyncDirectory(folder);
+  return ReplaceFile(folder / kComplete, kept + "\n");
 }
 
 // Renames `name` of one folder to another; nothing when it is not there.

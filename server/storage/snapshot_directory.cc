@@ -77,11 +77,7 @@ absl::Status AppendFile(const fs::path& path, const char* member,
 
 absl::Status WriteDigestFile(const fs::path& path, const std::string& name,
                              const Sha256Digest& sha256) {
-  ARGMESH_ASSIGN_OR_RETURN(const PosixFile file,
-                           OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC));
-  ARGMESH_RETURN_IF_ERROR(
-      WriteAll(file, path, absl::StrCat(ToHex(sha256), "  ", name, "\n")));
-  return SyncFile(file, path);
+  return WriteFile(path, absl::StrCat(ToHex(sha256), "  ", name, "\n"));
 }
 
 absl::StatusOr<Sha256Digest> ReadDigestFile(const fs::path& path) {

@@ -329,7 +329,6 @@ absl::StatusOr<std::optional<ShapeWritten>> SqliteCatalog::FindPutShape(
                                  RecallRequest(connection, request));
         if (!answer) return absl::OkStatus();
         ARGMESH_ASSIGN_OR_RETURN(found, ParseShapeWritten(*answer));
-        found->written = false;
         return absl::OkStatus();
       }));
   return found;

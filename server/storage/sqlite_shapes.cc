@@ -159,18 +159,11 @@ absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
   return ShapeExistsError(put.record.collection, put.record.id);
 }
 
-// What a retry answers.
-absl::StatusOr<ShapeWritten> ParseFirst(std::string_view answer) {
-  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(answer));
-  first.written = false;
-  return first;
-}
-
 absl::StatusOr<ShapeWritten> Put(SqliteConnection& connection,
                                  const ShapePut& put, const PutBytes& bytes) {
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
                            RecallRequest(connection, put.request));
-  if (answer) return ParseFirst(*answer);
+  if (answer) return ParseShapeWritten(*answer);
   ARGMESH_ASSIGN_OR_RETURN(
       const CollectionRow collection,
       FindCollectionRow(connection, put.record.collection, put.collection_uid));
@@ -328,7 +321,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(size, [&](SqliteConnection& connection) {
-        written = WriteOnce(connection, patch.request, ParseFirst,
+        written = WriteOnce(connection, patch.request, ParseShapeWritten,
                             SerializeShapeWritten,
                             [&] { return Patch(connection, patch); });
         return written.status();

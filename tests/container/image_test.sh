@@ -56,7 +56,8 @@ if command -v ccache >/dev/null; then
 fi
 buildah "${store[@]}" --storage-driver overlay bud --isolation chroot \
   --pull-never --format docker --layers=false --quiet "${cache[@]}" \
-  --build-arg VERSION=1.2.3 -f docker/Dockerfile -t localhost/argmesh:test . >"$work/log" 2>&1 ||
+  --build-arg VERSION=1.2.3 \
+  -f docker/Dockerfile -t localhost/argmesh:test . >"$work/log" 2>&1 ||
   fail "the image does not build: $(tail -5 "$work/log")"
 
 inspect() {

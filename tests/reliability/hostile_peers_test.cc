@@ -145,7 +145,7 @@ std::string GzipOfZeroes(size_t size) {
 }
 
 bool IsWorthAsking(const std::string& failure) {
-  return failure.starts_with("code 8:") || failure.starts_with("code 14:");
+  return IsOverloaded(failure) || failure.starts_with("code 14:");
 }
 
 // As the client library does: what is refused as too much, or cut with its

@@ -48,11 +48,14 @@ void Announce(const std::string& mesh, Header& header) {
   header.set_sha256(ToHex(ComputeSha256(mesh)));
 }
 
+std::string CodeText(grpc::StatusCode code) {
+  return "code " + std::to_string(code) + ": ";
+}
+
 // `failure` of a call that had to fail with `code`.
 std::string Expect(const std::string& failure, grpc::StatusCode code) {
-  const std::string expected = "code " + std::to_string(code) + ": ";
-  if (failure.starts_with(expected)) return "";
-  return failure.empty() ? "answered instead of " + expected : failure;
+  if (failure.starts_with(CodeText(code))) return "";
+  return failure.empty() ? "answered instead of " + CodeText(code) : failure;
 }
 
 }  // namespace
@@ -70,8 +73,11 @@ std::shared_ptr<grpc::Channel> OwnChannel(const std::string& address) {
 
 std::string FailureOf(const grpc::Status& status) {
   if (status.ok()) return "";
-  return "code " + std::to_string(status.error_code()) + ": " +
-         status.error_message();
+  return CodeText(status.error_code()) + status.error_message();
+}
+
+bool IsOverloaded(const std::string& failure) {
+  return failure.starts_with(CodeText(grpc::StatusCode::RESOURCE_EXHAUSTED));
 }
 
 ShapeCaller::ShapeCaller(const std::string& address) {

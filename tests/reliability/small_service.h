@@ -24,6 +24,8 @@ inline constexpr char kParts[] = "collections/parts";
 std::shared_ptr<grpc::Channel> OwnChannel(const std::string& address);
 // Code and message; empty when `status` is OK.
 std::string FailureOf(const grpc::Status& status);
+// The server had no time for the call.
+bool IsOverloaded(const std::string& failure);
 
 // For a torus whose answers are large, because of its metadata.
 v1::CreateShapeRequest TorusRequest(const std::string& id, double minor_radius);

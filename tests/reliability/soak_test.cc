@@ -62,11 +62,6 @@ double MebibytesPerHour(const std::vector<MemorySample>& samples) {
   return square > 0 ? 3600 * both / square : 0;
 }
 
-bool IsOverloaded(const std::string& failure) {
-  return failure.starts_with(
-      "code " + std::to_string(grpc::StatusCode::RESOURCE_EXHAUSTED) + ": ");
-}
-
 // Shape "passing", by one of the ways there are.
 std::string Add(ShapeCaller& caller, int way, double minor_radius) {
   switch (way) {

@@ -27,13 +27,6 @@ absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
   return ShapeExistsError(put.record.collection, put.record.id);
 }
 
-// What a retry answers.
-absl::StatusOr<ShapeWritten> ParseFirst(std::string_view answer) {
-  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten first, ParseShapeWritten(answer));
-  first.written = false;
-  return first;
-}
-
 }  // namespace
 
 absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
@@ -238,7 +231,7 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::PutShape(const ShapePut& put) {
   ARGMESH_RETURN_IF_ERROR(std::exchange(next_put_, absl::OkStatus()));
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
                            Recall(put.request));
-  if (answer) return ParseFirst(*answer);
+  if (answer) return ParseShapeWritten(*answer);
   ARGMESH_ASSIGN_OR_RETURN(Collection * collection,
                            Find(put.record.collection, put.collection_uid));
   const auto it = collection->shapes.find(put.record.id);
@@ -294,8 +287,8 @@ absl::StatusOr<ShapeWritten> MemoryCatalog::UpdateShape(
         LogChange(*collection, patch.id, ShapeChange::Kind::kPut);
     return ShapeWritten{record, collection->record.uid, true, {}};
   };
-  return Once<ShapeWritten>(patch.request, ParseFirst, SerializeShapeWritten,
-                            write);
+  return Once<ShapeWritten>(patch.request, ParseShapeWritten,
+                            SerializeShapeWritten, write);
 }
 
 absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
@@ -308,8 +301,7 @@ absl::StatusOr<ShapeDeleted> MemoryCatalog::DeleteShape(
     }
     ARGMESH_RETURN_IF_ERROR(
         CheckEtag(removal.etag, ShapeEtag(it->second.record)));
-    const ShapeDeleted deleted = Erase(*collection, removal.id);
-    return deleted;
+    return Erase(*collection, removal.id);
   };
   return Once<ShapeDeleted>(removal.request, ParseShapeDeleted,
                             SerializeShapeDeleted, write);

@@ -122,9 +122,7 @@ absl::StatusOr<std::optional<ShapeWritten>> MemoryCatalog::FindPutShape(
   ARGMESH_ASSIGN_OR_RETURN(const std::optional<std::string> answer,
                            Recall(request));
   if (!answer) return std::nullopt;
-  ARGMESH_ASSIGN_OR_RETURN(ShapeWritten found, ParseShapeWritten(*answer));
-  found.written = false;
-  return found;
+  return ParseShapeWritten(*answer);
 }
 
 }  // namespace argmesh

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "google/protobuf/wrappers.pb.h"
+#include "server/rpc/operation_record.h"
 
 namespace argmesh {
 namespace {
@@ -31,8 +32,13 @@ class OperationRegistryTest : public ::testing::Test {
     }
   }
 
-  static std::string IdOf(const Operation& operation) {
-    return operation.name().substr(operation.name().find('/') + 1);
+  // The id of an operation that ends once `go` is there.
+  static std::string StartWaiting(OperationRegistry& registry,
+                                  const std::shared_future<void>& go) {
+    return OperationId(*registry.Start("method", "", [go](const RunControl&) {
+      go.wait();
+      return Packed(google::protobuf::StringValue());
+    }));
   }
 
   std::ostringstream log_text_;
@@ -53,7 +59,7 @@ TEST_F(OperationRegistryTest, CutsPagesByCountAndByBytes) {
       EXPECT_LE(page.operations.size(), of_a_page);
       EXPECT_TRUE(!page.more || page.operations.size() == of_a_page);
       for (const Operation& operation : page.operations) {
-        ids.push_back(IdOf(operation));
+        ids.push_back(OperationId(operation));
       }
     }
     EXPECT_EQ(ids.size(), 5U);
@@ -94,9 +100,10 @@ TEST_F(OperationRegistryTest, RemembersThoseOfTheProcessBefore) {
   std::string done;
   {
     OperationRegistry registry(log_, &store);
-    done = IdOf(*registry.Start("method", "resource", [](const RunControl&) {
-      return Packed(google::protobuf::StringValue());
-    }));
+    done = OperationId(
+        *registry.Start("method", "resource", [](const RunControl&) {
+          return Packed(google::protobuf::StringValue());
+        }));
     registry.EndAll();
   }
   OperationRegistry registry(log_, &store);
@@ -114,15 +121,11 @@ TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
   const std::string id = [&] {
     MapStore store;
     std::promise<void> go;
-    const std::shared_future<void> gone = go.get_future().share();
     OperationRegistry registry(log_, &store);
-    const auto begun = registry.Start("method", "", [&](const RunControl&) {
-      gone.wait();
-      return Packed(google::protobuf::StringValue());
-    });
+    std::string begun = StartWaiting(registry, go.get_future().share());
     left = store;
     go.set_value();
-    return IdOf(*begun);
+    return begun;
   }();
   ASSERT_EQ(left.size(), 1U);
   for (int restart = 0; restart < 2; ++restart) {
@@ -140,13 +143,9 @@ TEST_F(OperationRegistryTest, SaysThatAnOperationWasInterrupted) {
 TEST_F(OperationRegistryTest, ForgetsAnOperationThatWasDeletedWhileItRan) {
   MapStore store;
   std::promise<void> go;
-  const std::shared_future<void> gone = go.get_future().share();
   OperationRegistry registry(log_, &store);
-  const auto begun = registry.Start("method", "", [&](const RunControl&) {
-    gone.wait();
-    return Packed(google::protobuf::StringValue());
-  });
-  EXPECT_TRUE(registry.Delete(IdOf(*begun)).ok());
+  const std::string begun = StartWaiting(registry, go.get_future().share());
+  EXPECT_TRUE(registry.Delete(begun).ok());
   go.set_value();
   registry.EndAll();
   EXPECT_EQ(store.size(), 0U);
