@@ -17,7 +17,7 @@ namespace argmesh {
 namespace {
 
 // A page of a list, the server's largest.
-constexpr int kPageSize = 1000;
+constexpr int kCollectionsPerPage = 1000;
 
 }  // namespace
 
@@ -133,7 +133,7 @@ absl::StatusOr<v1::ListCollectionsResponse> Client::ListCollections(
 absl::Status Client::ForEachCollection(
     const std::function<bool(const v1::Collection&)>& visit) {
   v1::ListCollectionsRequest request;
-  request.set_page_size(kPageSize);
+  request.set_page_size(kCollectionsPerPage);
   do {
     ARGMESH_ASSIGN_OR_RETURN(const v1::ListCollectionsResponse page,
                              ListCollections(request));

@@ -13,7 +13,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int kPageSize = 1000;
+constexpr int kShapesPerPage = 1000;
 
 absl::Status CheckDownload(const v1::DownloadMeshHeader& header,
                            std::string_view bytes) {
@@ -111,7 +111,7 @@ absl::Status Client::ForEachShape(
   v1::ListShapesRequest request;
   request.set_parent(std::string(collection_name));
   request.set_filter(filter);
-  request.set_page_size(kPageSize);
+  request.set_page_size(kShapesPerPage);
   do {
     ARGMESH_ASSIGN_OR_RETURN(const v1::ListShapesResponse page,
                              ListShapes(request));

@@ -65,7 +65,7 @@ std::string TimeOf(const v1::Snapshot& snapshot) {
       absl::UTCTimeZone());
 }
 
-Json ToJson(const v1::Snapshot& snapshot) {
+Json SnapshotToJson(const v1::Snapshot& snapshot) {
   return {{"name", snapshot.name()},
           {"create_time", TimeOf(snapshot)},
           {"size_bytes", snapshot.size_bytes()},
@@ -74,7 +74,7 @@ Json ToJson(const v1::Snapshot& snapshot) {
 
 void Show(const Session& session, const v1::Snapshot& snapshot) {
   if (session.options.json) {
-    session.Print(ToJson(snapshot));
+    session.Print(SnapshotToJson(snapshot));
   } else {
     session.out << absl::StrFormat("%s: %d bytes, sha256 %s\n", snapshot.name(),
                                    snapshot.size_bytes(), snapshot.sha256());
@@ -96,7 +96,7 @@ absl::StatusOr<int> List(const Session& session, const SnapshotArguments&) {
   Json list = Json::array();
   TextTable table({"snapshot", "made", ">bytes", "sha256"});
   for (const v1::Snapshot& snapshot : snapshots) {
-    list.push_back(ToJson(snapshot));
+    list.push_back(SnapshotToJson(snapshot));
     table.AddRow({snapshot.name(), TimeOf(snapshot),
                   absl::StrCat(snapshot.size_bytes()), snapshot.sha256()});
   }

@@ -12,7 +12,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kCompareDetails[] =
     R"(A and B are ids of stored shapes or mesh files; a name of an existing file is the
 file. Nothing is stored. With --mode partial A is looked for in B.
 
@@ -83,12 +83,13 @@ absl::StatusOr<int> Compare(const Session& session,
 
 void AddCompareCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = commands.Add(
-      app,
-      {"compare", "Say how alike two shapes are, level by level.", kDetails},
-      [arguments](const Session& session) {
-        return Compare(session, *arguments);
-      });
+  CLI::App* command =
+      commands.Add(app,
+                   {"compare", "Say how alike two shapes are, level by level.",
+                    kCompareDetails},
+                   [arguments](const Session& session) {
+                     return Compare(session, *arguments);
+                   });
   AddMatchOptions(command, arguments->match);
   command->add_flag("--explain", arguments->explain,
                     "Show what the score adds up from");

@@ -6,7 +6,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] = R"(Examples:
+constexpr char kCompletionDetails[] = R"(Examples:
   argmesh completion bash > ~/.local/share/bash-completion/completions/argmesh
   source <(argmesh completion zsh)
   argmesh completion fish > ~/.config/fish/completions/argmesh.fish)";
@@ -41,7 +41,7 @@ void AddCompletionCommand(CLI::App& app, CommandSet& commands) {
   CLI::App* command = commands.Add(
       app,
       {"completion", "Print a script that completes commands in a shell.",
-       kDetails},
+       kCompletionDetails},
       [shell, &app](const Session& session) -> absl::StatusOr<int> {
         std::vector<CompletionCommand> tree;
         CollectCommands(app, "", tree);

@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kDeclareDetails[] =
     R"(Says which metadata keys --filter may name, and whether their values are string,
 number or bool. The list takes the place of the one before; without any key
 nothing is declared any more. Values of all shapes must be of the types.
@@ -66,7 +66,8 @@ void AddDeclareCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<DeclareArguments>();
   CLI::App* command = commands.Add(
       app,
-      {"declare", "Declare the metadata keys that filters may name.", kDetails},
+      {"declare", "Declare the metadata keys that filters may name.",
+       kDeclareDetails},
       [arguments](const Session& session) {
         return Declare(session, *arguments);
       });

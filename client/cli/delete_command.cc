@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kDeleteDetails[] =
     R"(With ids these shapes are removed, without any the collection; one that still has
 shapes only with --force. There is no way back.
 
@@ -71,7 +71,7 @@ absl::StatusOr<int> DeleteCollection(const Session& session, Client& client,
 void AddDeleteCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<DeleteArguments>();
   CLI::App* command = commands.Add(
-      app, {"delete", "Remove shapes or a collection.", kDetails},
+      app, {"delete", "Remove shapes or a collection.", kDeleteDetails},
       [arguments](const Session& session) -> absl::StatusOr<int> {
         ARGMESH_ASSIGN_OR_RETURN(const auto client, session.Connect());
         return arguments->shapes.empty()

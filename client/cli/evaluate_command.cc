@@ -7,7 +7,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kEvaluateDetails[] =
     R"(Every shape with a class (see `argmesh ingest --labels`) is the query once, is
 left out of its own answer, and the others should rank those of its class first.
 Shown are nearest neighbour, first and second tier, E-measure and DCG, 0 to 1.
@@ -42,11 +42,13 @@ absl::StatusOr<int> Evaluate(const Session& session,
 
 void AddEvaluateCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command = commands.Add(
-      app, {"evaluate", "Measure how well a collection is searched.", kDetails},
-      [arguments](const Session& session) {
-        return Evaluate(session, *arguments);
-      });
+  CLI::App* command =
+      commands.Add(app,
+                   {"evaluate", "Measure how well a collection is searched.",
+                    kEvaluateDetails},
+                   [arguments](const Session& session) {
+                     return Evaluate(session, *arguments);
+                   });
   AddMatchOptions(command, arguments->match);
   AddFilterOption(command, arguments->filter);
   command->add_option("--queries", arguments->queries, "Table of query files")

@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] = R"(Without ID the collection itself is shown.
+constexpr char kGetDetails[] = R"(Without ID the collection itself is shown.
 
 Examples:
   argmesh get --collection parts
@@ -65,7 +65,7 @@ absl::StatusOr<int> GetShape(const Session& session, Client& client,
 void AddGetCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<GetArguments>();
   CLI::App* command = commands.Add(
-      app, {"get", "Show a shape or a collection, fetch a mesh.", kDetails},
+      app, {"get", "Show a shape or a collection, fetch a mesh.", kGetDetails},
       [arguments](const Session& session) -> absl::StatusOr<int> {
         ARGMESH_ASSIGN_OR_RETURN(const auto client, session.Connect());
         if (!arguments->shape.empty()) {

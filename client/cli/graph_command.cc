@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kGraphDetails[] =
     R"(Shows the levels of the graph, coarse to fine; with --level the components of
 that level and which of them are neighbours. --json has all attributes.
 
@@ -91,12 +91,13 @@ absl::StatusOr<int> ShowGraph(const Session& session,
 
 void AddGraphCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<GraphArguments>();
-  CLI::App* command = commands.Add(
-      app,
-      {"graph", "Show the attributed relational graph of a shape.", kDetails},
-      [arguments](const Session& session) {
-        return ShowGraph(session, *arguments);
-      });
+  CLI::App* command =
+      commands.Add(app,
+                   {"graph", "Show the attributed relational graph of a shape.",
+                    kGraphDetails},
+                   [arguments](const Session& session) {
+                     return ShowGraph(session, *arguments);
+                   });
   AddCollectionOption(command, arguments->collection);
   command->add_option("--level", arguments->level, "Only this level")
       ->type_name("NAME");

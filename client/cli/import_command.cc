@@ -11,7 +11,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kImportDetails[] =
     R"(Like `argmesh ingest`, but the files are on the server's machine, below the folder
 that it was given with --import-root, and are read there. FOLDER is relative to
 that. The collection is created when it does not exist. Links are not followed.
@@ -72,7 +72,8 @@ absl::StatusOr<int> Import(const Session& session,
 void AddImportCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<ImportArguments>();
   CLI::App* command = commands.Add(
-      app, {"import", "Store mesh files of the server's machine.", kDetails},
+      app,
+      {"import", "Store mesh files of the server's machine.", kImportDetails},
       [arguments](const Session& session) {
         return Import(session, *arguments);
       });

@@ -9,7 +9,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kIngestDetails[] =
     R"(Folders are searched through all levels for .off .obj .ply .stl files. A file
 becomes the shape whose id is made from its path relative to the folder given
 (its name, for a file given by itself); that path is kept as source_uri. The
@@ -55,7 +55,8 @@ absl::StatusOr<int> Ingest(const Session& session,
 void AddIngestCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<IngestArguments>();
   CLI::App* command = commands.Add(
-      app, {"ingest", "Store mesh files as shapes of a collection.", kDetails},
+      app,
+      {"ingest", "Store mesh files as shapes of a collection.", kIngestDetails},
       [arguments](const Session& session) {
         return Ingest(session, *arguments);
       });

@@ -33,7 +33,7 @@ Examples:
   argmesh keys create --file keys.json ci --role write --collection parts
   argmesh keys create --file keys.json ops --role admin --days 365)";
 
-constexpr char kListDetails[] = R"(Examples:
+constexpr char kListKeysDetails[] = R"(Examples:
   argmesh keys list --file keys.json)";
 
 constexpr char kLimitDetails[] =
@@ -90,7 +90,7 @@ std::string TextOf(const KeyLimits& limits) {
   return parts.empty() ? "none" : absl::StrJoin(parts, "; ");
 }
 
-Json ToJson(const KeyLimits& limits) {
+Json LimitsToJson(const KeyLimits& limits) {
   return {{"requests_per_second", limits.requests_per_second},
           {"burst", limits.burst},
           {"concurrent_calls", limits.concurrent_calls}};
@@ -155,7 +155,7 @@ absl::StatusOr<int> CreateKey(const Session& session,
                    {"key", text},
                    {"role", arguments.role},
                    {"collections", key.collections},
-                   {"limits", ToJson(key.limits)},
+                   {"limits", LimitsToJson(key.limits)},
                    {"expires", ExpiryOf(key)}});
   } else {
     session.out << text << '\n';
@@ -175,7 +175,7 @@ absl::StatusOr<int> ListKeys(const Session& session,
     list.push_back({{"id", id},
                     {"role", role},
                     {"collections", key.collections},
-                    {"limits", ToJson(key.limits)},
+                    {"limits", LimitsToJson(key.limits)},
                     {"expires", ExpiryOf(key)},
                     {"expired", expired}});
     table.AddRow({id, role, CollectionsOf(key), TextOf(key.limits),
@@ -198,7 +198,7 @@ absl::StatusOr<int> LimitKey(const Session& session,
   key->second.limits = limits;
   ARGMESH_RETURN_IF_ERROR(WriteKeyFile(arguments.file, keys));
   if (session.options.json) {
-    session.Print({{"id", arguments.id}, {"limits", ToJson(limits)}});
+    session.Print({{"id", arguments.id}, {"limits", LimitsToJson(limits)}});
   } else {
     session.out << arguments.id << " limits: " << TextOf(limits)
                 << "; send the server a SIGHUP\n";
@@ -287,7 +287,7 @@ void AddKeysCommands(CLI::App& app, CommandSet& commands) {
       add({"limit", "Set what a key may use.", kLimitDetails}, LimitKey);
   AddIdArgument(limit, *arguments);
   AddLimitOptions(limit, arguments->limits);
-  add({"list", "Show the keys of a file.", kListDetails}, ListKeys);
+  add({"list", "Show the keys of a file.", kListKeysDetails}, ListKeys);
   AddIdArgument(add({"revoke", "Remove a key.", kRevokeDetails}, RevokeKey),
                 *arguments);
 }

@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kListDetails[] =
     R"(Without --collection the collections are listed, with it its shapes; by id, all
 of them unless --limit is given.
 
@@ -83,7 +83,7 @@ absl::StatusOr<int> ListShapes(const Session& session, Client& client,
 void AddListCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<ListArguments>();
   CLI::App* command = commands.Add(
-      app, {"list", "List collections, or the shapes of one.", kDetails},
+      app, {"list", "List collections, or the shapes of one.", kListDetails},
       [arguments](const Session& session) -> absl::StatusOr<int> {
         if (arguments->collection.empty() && !arguments->filter.empty()) {
           return UsageError("--filter needs --collection");

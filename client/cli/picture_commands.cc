@@ -8,7 +8,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kPictureDetails[] =
     R"(Meshes and components come from the server; pictures are PNG files.
 
 Examples:
@@ -70,8 +70,8 @@ absl::StatusOr<int> WriteFigure(const Session& session, const Figure& figure,
 
 void AddPictureCommands(CLI::App& app, CommandSet& commands) {
   CLI::App* group = commands.AddGroup(
-      app,
-      {"picture", "Draw shapes, components, matches and results.", kDetails});
+      app, {"picture", "Draw shapes, components, matches and results.",
+            kPictureDetails});
   AddPictureLevelsCommand(*group, commands);
   AddPictureModesCommand(*group, commands);
   AddPictureMatchCommand(*group, commands);

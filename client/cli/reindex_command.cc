@@ -14,7 +14,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kReindexDetails[] =
     R"(After an upgrade that computes shapes in another way, those stored before are left
 out of searches until they are described anew; this does it, from their stored
 meshes, in the background of the server: searches go on. Ctrl-C stops it; the
@@ -101,7 +101,7 @@ void AddReindexCommand(CLI::App& app, CommandSet& commands) {
       app,
       {"reindex",
        "Describe shapes anew: of an older version, or with other settings.",
-       kDetails},
+       kReindexDetails},
       [arguments](const Session& session) {
         return Reindex(session, *arguments);
       });

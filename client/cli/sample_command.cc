@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kDetails[] =
+constexpr char kSampleDetails[] =
     R"(Writes DIR/CLASS/CLASS-NN.off and DIR/labels.tsv: seeded procedural meshes in
 named classes, for a first try and for tests. Equal options give equal files.
 With --part half of the class's first shape is written to FILE, turned and at
@@ -157,7 +157,7 @@ absl::StatusOr<int> WritePart(const Session& session,
 void AddSampleCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<SampleArguments>();
   CLI::App* command = commands.Add(
-      app, {"sample", "Write a sample collection of meshes.", kDetails},
+      app, {"sample", "Write a sample collection of meshes.", kSampleDetails},
       [arguments](const Session& session) {
         return arguments->part.empty() ? WriteCollection(session, *arguments)
                                        : WritePart(session, *arguments);

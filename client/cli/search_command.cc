@@ -10,7 +10,7 @@
 namespace argmesh {
 namespace {
 
-constexpr char kDetails[] =
+constexpr char kSearchDetails[] =
     R"(The query is a mesh file, or a stored shape by --shape; that one is left out of
 its own answer unless --include-self is given; --region makes components of it
 the query. "query" and "target" are the shares of each side's area that match.
@@ -74,7 +74,7 @@ absl::StatusOr<int> Search(const Session& session,
 void AddSearchCommand(CLI::App& app, CommandSet& commands) {
   const auto arguments = std::make_shared<SearchArguments>();
   CLI::App* command = commands.Add(
-      app, {"search", "Find shapes like a query, best first.", kDetails},
+      app, {"search", "Find shapes like a query, best first.", kSearchDetails},
       [arguments](const Session& session) {
         return Search(session, *arguments);
       });

@@ -11,7 +11,7 @@ namespace argmesh {
 namespace {
 
 constexpr size_t kCandidates = 3;
-constexpr float kSigma = 0.5F;
+constexpr float kPairSigma = 0.5F;
 constexpr float kMinLikeness = 0.02F;
 constexpr float kMinBaseline = 0.2F;     // of the query's size
 constexpr float kMaxScaleRatio = 1.43F;  // to the shift's scale
@@ -104,7 +104,7 @@ WindowPairs::WindowPairs(const QueryWindows& query,
 void WindowPairs::Add(const QueryWindow& window, double weight,
                       const PreparedLevel& level) {
   const float unit = DefaultWindowCodebook().unit;
-  const float falloff = -1 / (2 * kSigma * kSigma * unit * unit);
+  const float falloff = -1 / (2 * kPairSigma * kPairSigma * unit * unit);
   double total = cumulative_.empty() ? 0 : cumulative_.back();
   const auto nearest = level.descriptors.FindNearest<kCandidates>(
       DescriptorOf(window, flipped_));

@@ -13,7 +13,7 @@
 namespace argmesh {
 namespace {
 
-constexpr double kSigma = 0.25;
+constexpr double kVoteSigma = 0.25;
 constexpr size_t kExactShifts = 3;
 
 using Tables = std::array<DescriptorTable, kNumTargetLevels>;
@@ -30,7 +30,7 @@ double VotesAtShift(const QueryWindows& query, const VoteResult& votes,
                     int shift, bool flipped, const Tables& tables) {
   const float unit = DefaultWindowCodebook().unit;
   const auto falloff =
-      static_cast<float>(-1 / (2 * kSigma * kSigma)) / (unit * unit);
+      static_cast<float>(-1 / (2 * kVoteSigma * kVoteSigma)) / (unit * unit);
   double sum = 0;
   size_t i = 0;
   for (size_t l = 0; l < query.levels.size(); ++l) {

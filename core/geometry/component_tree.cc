@@ -9,7 +9,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int32_t kLeafSize = 8;
+constexpr int32_t kComponentsPerLeaf = 8;
 
 bool Nearer(const ComponentTree::Sample& a, const ComponentTree::Sample& b) {
   return std::tie(a.squared_distance, a.vertex) <
@@ -79,7 +79,7 @@ int32_t ComponentTree::Build(int32_t begin, int32_t end) {
     node.high = node.high.cwiseMax(p);
   }
   nodes_.push_back(node);
-  if (end - begin > kLeafSize) {
+  if (end - begin > kComponentsPerLeaf) {
     Eigen::Index axis = 0;
     (node.high - node.low).maxCoeff(&axis);
     const int32_t middle = begin + (end - begin) / 2;

@@ -6,7 +6,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int32_t kLeafSize = 10;
+constexpr int32_t kPointsPerLeaf = 10;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void PointTree::Build(std::span<NumberedPoint> points, int32_t begin,
     node.high = node.high.cwiseMax(point.position);
   }
   nodes_.push_back(node);
-  if (end - begin <= kLeafSize) return;
+  if (end - begin <= kPointsPerLeaf) return;
   Eigen::Index axis = 0;
   (node.high - node.low).maxCoeff(&axis);
   const size_t half = points.size() / 2;

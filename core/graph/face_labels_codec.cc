@@ -15,7 +15,7 @@
 namespace argmesh {
 namespace {
 
-constexpr std::string_view kMagic = "ARGL";
+constexpr std::string_view kLabelsMagic = "ARGL";
 
 void WriteLabels(const std::vector<int16_t>& labels, ByteWriter& writer) {
   writer.WriteU32(static_cast<uint32_t>(labels.size()));
@@ -47,13 +47,13 @@ std::string SerializeFaceLabels(const FaceLabels& labels) {
   ByteWriter writer;
   WriteLabels(labels.component, writer);
   WriteLabels(labels.uniform, writer);
-  return SealBytes(kMagic, kShapeGraphVersion, writer.bytes());
+  return SealBytes(kLabelsMagic, kShapeGraphVersion, writer.bytes());
 }
 
 absl::StatusOr<FaceLabels> ParseFaceLabels(std::string_view bytes) {
   ARGMESH_ASSIGN_OR_RETURN(
       const std::string_view payload,
-      OpenSealedBytes("face labels", kMagic, kShapeGraphVersion, bytes));
+      OpenSealedBytes("face labels", kLabelsMagic, kShapeGraphVersion, bytes));
   ByteReader reader(payload, "face labels");
   FaceLabels labels;
   ARGMESH_ASSIGN_OR_RETURN(labels.component, ReadLabels(reader));

@@ -16,7 +16,7 @@
 namespace argmesh {
 namespace {
 
-constexpr std::string_view kMagic = "ARGG";
+constexpr std::string_view kGraphMagic = "ARGG";
 constexpr size_t kModeBytes = 32;
 // Threshold, count and three counts of nothing.
 constexpr size_t kEmptyLevelBytes = 24;
@@ -69,13 +69,13 @@ std::string SerializeShapeGraph(const ShapeGraph& graph) {
   WriteLevel(graph.uniform, writer);
   writer.WriteU32(static_cast<uint32_t>(graph.modes.size()));
   for (const ArgMode& mode : graph.modes) WriteMode(mode, writer);
-  return SealBytes(kMagic, kShapeGraphVersion, writer.bytes());
+  return SealBytes(kGraphMagic, kShapeGraphVersion, writer.bytes());
 }
 
 absl::StatusOr<ShapeGraph> ParseShapeGraph(std::string_view bytes) {
   ARGMESH_ASSIGN_OR_RETURN(
       const std::string_view payload,
-      OpenSealedBytes("shape graph", kMagic, kShapeGraphVersion, bytes));
+      OpenSealedBytes("shape graph", kGraphMagic, kShapeGraphVersion, bytes));
   ByteReader reader(payload, "shape graph");
   ShapeGraph graph;
   ARGMESH_RETURN_IF_ERROR(ReadFrame(reader, graph));

@@ -22,8 +22,8 @@ extern const char argmesh_signature_codebook_end[];
 namespace argmesh {
 namespace {
 
-constexpr std::string_view kMagic = "ARGC";
-constexpr std::string_view kWhat = "signature codebook";
+constexpr std::string_view kCodebookMagic = "ARGC";
+constexpr std::string_view kCodebookName = "signature codebook";
 // Places vary about as much as the widest axis of the histograms.
 const Eigen::Array<float, 1, kPlaceDims> kPlaceMiddle(0.4F, 0.65F);
 const Eigen::Array<float, 1, kPlaceDims> kPlaceScale(0.5F, 1.0F);
@@ -147,14 +147,14 @@ std::string EncodeCodebook(const Codebook& codebook) {
   WriteMixture(codebook.patches, writer);
   WriteMatrix(codebook.point_mean, writer);
   WriteMatrix(codebook.view_mean, writer);
-  return SealBytes(kMagic, kSignatureVersion, writer.bytes());
+  return SealBytes(kCodebookMagic, kSignatureVersion, writer.bytes());
 }
 
 absl::StatusOr<Codebook> DecodeCodebook(std::string_view bytes) {
   ARGMESH_ASSIGN_OR_RETURN(
       const std::string_view payload,
-      OpenSealedBytes(kWhat, kMagic, kSignatureVersion, bytes));
-  ByteReader reader(payload, kWhat);
+      OpenSealedBytes(kCodebookName, kCodebookMagic, kSignatureVersion, bytes));
+  ByteReader reader(payload, kCodebookName);
   Codebook codebook;
   ARGMESH_RETURN_IF_ERROR(
       ReadMatrix(kNumFields, kFieldKnots, reader, codebook.field_knots));

@@ -21,8 +21,8 @@
 namespace argmesh {
 namespace {
 
-constexpr std::string_view kMagic = "ARGB";
-constexpr std::string_view kWhat = "compact basis";
+constexpr std::string_view kBasisMagic = "ARGB";
+constexpr std::string_view kBasisName = "compact basis";
 constexpr size_t kMaxFitted = 4096;
 // Directions searched beside those kept, and rounds of the search.
 constexpr int kSpare = 16;
@@ -155,14 +155,14 @@ std::string EncodeCompactBasis(const CompactBasis& basis) {
   writer.WriteU32(static_cast<uint32_t>(basis.axes.cols()));
   writer.WriteF32Array(
       {basis.axes.data(), static_cast<size_t>(basis.axes.size())});
-  return SealBytes(kMagic, kSignatureVersion, writer.bytes());
+  return SealBytes(kBasisMagic, kSignatureVersion, writer.bytes());
 }
 
 absl::StatusOr<CompactBasis> DecodeCompactBasis(std::string_view bytes) {
   ARGMESH_ASSIGN_OR_RETURN(
       const std::string_view payload,
-      OpenSealedBytes(kWhat, kMagic, kSignatureVersion, bytes));
-  ByteReader reader(payload, kWhat);
+      OpenSealedBytes(kBasisName, kBasisMagic, kSignatureVersion, bytes));
+  ByteReader reader(payload, kBasisName);
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<float> mean,
                            reader.ReadF32Array(kSignatureDims));
   ARGMESH_ASSIGN_OR_RETURN(const uint32_t count,

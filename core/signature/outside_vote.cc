@@ -18,11 +18,11 @@ namespace argmesh {
 namespace {
 
 constexpr int kPoints = 4096;
-constexpr int kRays = 8;
+constexpr int kVoteRays = 8;
 constexpr double kSteepest = 0.95;  // cosine to the normal
 constexpr double kFlattest = 0.25;
-constexpr float kOffset = 1e-4F;  // of a ray's origin from the surface
-constexpr int kPointsBetweenChecks = 256;
+constexpr float kVoteOffset = 1e-4F;  // of a ray's origin from the surface
+constexpr int kPointsBetweenStops = 256;
 
 struct Pieces {
   std::vector<int32_t> of_face;
@@ -73,11 +73,11 @@ Pieces FindPieces(const TriangleMesh& mesh, const MeshEdges& edges) {
 }
 
 // Directions over the half space of +z.
-std::array<Eigen::Vector3f, kRays> HalfSpaceDirections() {
-  std::array<Eigen::Vector3f, kRays> directions;
+std::array<Eigen::Vector3f, kVoteRays> HalfSpaceDirections() {
+  std::array<Eigen::Vector3f, kVoteRays> directions;
   for (size_t i = 0; i < directions.size(); ++i) {
     const double z = kSteepest - (kSteepest - kFlattest) *
-                                     static_cast<double>(i) / (kRays - 1);
+                                     static_cast<double>(i) / (kVoteRays - 1);
     const double r = std::sqrt(1 - z * z);
     const double azimuth =
         static_cast<double>(i) * (3 - std::sqrt(5.0)) * std::numbers::pi;
@@ -91,7 +91,7 @@ std::array<Eigen::Vector3f, kRays> HalfSpaceDirections() {
 // By how many more rays escape from the front of a point than from its back.
 int CountEscapes(const RayScene& scene, const Eigen::Vector3f& point,
                  const Eigen::Vector3f& normal) {
-  static const std::array<Eigen::Vector3f, kRays> directions =
+  static const std::array<Eigen::Vector3f, kVoteRays> directions =
       HalfSpaceDirections();
   Eigen::Matrix3f frame;
   frame.col(2) = normal;
@@ -101,8 +101,8 @@ int CountEscapes(const RayScene& scene, const Eigen::Vector3f& point,
   for (const Eigen::Vector3f& direction : directions) {
     const Eigen::Vector3f ray = frame * direction;
     const Eigen::Vector3f back = ray - 2 * direction.z() * normal;
-    if (!scene.IsOccluded(point + kOffset * normal, ray)) ++lead;
-    if (!scene.IsOccluded(point - kOffset * normal, back)) --lead;
+    if (!scene.IsOccluded(point + kVoteOffset * normal, ray)) ++lead;
+    if (!scene.IsOccluded(point - kVoteOffset * normal, back)) --lead;
   }
   return lead;
 }
@@ -132,7 +132,7 @@ absl::Status TurnOpenPiecesOut(const StopToken& stop, TriangleMesh& mesh) {
     if (passed < next) continue;
     const double steps = std::floor((passed - next) / step) + 1;
     next += steps * step;
-    if (++points % kPointsBetweenChecks == 0) {
+    if (++points % kPointsBetweenStops == 0) {
       ARGMESH_RETURN_IF_ERROR(stop.Check());
     }
     const Eigen::Vector3d middle =

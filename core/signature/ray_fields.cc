@@ -11,9 +11,9 @@
 namespace argmesh {
 namespace {
 
-constexpr size_t kRays = 30;
+constexpr size_t kConeRays = 30;
 constexpr double kConeCosine = 0.5;
-constexpr float kOffset = 1e-4F;  // of a ray's origin from the surface
+constexpr float kConeOffset = 1e-4F;  // of a ray's origin from the surface
 constexpr double kMinAngle = 0.15;
 
 struct ConeRay {
@@ -21,11 +21,11 @@ struct ConeRay {
   float weight;
 };
 
-std::array<ConeRay, kRays> MakeCone() {
-  std::array<ConeRay, kRays> cone;
-  for (size_t i = 0; i < kRays; ++i) {
+std::array<ConeRay, kConeRays> MakeCone() {
+  std::array<ConeRay, kConeRays> cone;
+  for (size_t i = 0; i < kConeRays; ++i) {
     const double z =
-        1 - (1 - kConeCosine) * (static_cast<double>(i) + 0.5) / kRays;
+        1 - (1 - kConeCosine) * (static_cast<double>(i) + 0.5) / kConeRays;
     const double r = std::sqrt(1 - z * z);
     const double azimuth =
         static_cast<double>(i) * (3 - std::sqrt(5.0)) * std::numbers::pi;
@@ -67,23 +67,23 @@ float RobustMean(std::span<Hit> hits) {
 
 RayFields CastPointRays(const RayScene& scene, const Eigen::Vector3f& point,
                         const Eigen::Vector3f& normal) {
-  static const std::array<ConeRay, kRays> cone = MakeCone();
+  static const std::array<ConeRay, kConeRays> cone = MakeCone();
   Eigen::Matrix3f frame;
   frame.col(0) = normal.unitOrthogonal();
   frame.col(1) = normal.cross(frame.col(0));
   frame.col(2) = normal;
-  std::array<Hit, kRays> hits;
+  std::array<Hit, kConeRays> hits;
   size_t count = 0;
   int occluded = 0;
   for (const ConeRay& ray : cone) {
     const Eigen::Vector3f out = frame * ray.direction;
     const Eigen::Vector3f in = out - 2 * ray.direction.z() * normal;
-    if (scene.IsOccluded(point + kOffset * normal, out)) ++occluded;
-    const auto exit = scene.FindExit(point - kOffset * normal, in, 0);
+    if (scene.IsOccluded(point + kConeOffset * normal, out)) ++occluded;
+    const auto exit = scene.FindExit(point - kConeOffset * normal, in, 0);
     if (exit) hits[count++] = {*exit, ray.weight};
   }
   return {RobustMean({hits.data(), count}),
-          static_cast<float>(occluded) / static_cast<float>(kRays)};
+          static_cast<float>(occluded) / static_cast<float>(kConeRays)};
 }
 
 }  // namespace argmesh

@@ -15,8 +15,8 @@
 namespace argmesh {
 namespace {
 
-constexpr std::string_view kMagic = "ARGS";
-constexpr std::string_view kWhat = "signature";
+constexpr std::string_view kSignatureMagic = "ARGS";
+constexpr std::string_view kSignatureName = "signature";
 
 void WriteHalves(const std::vector<float>& values, ByteWriter& writer) {
   for (const float value : values) {
@@ -43,14 +43,14 @@ std::string EncodeSignature(const ShapeSignature& signature) {
   writer.WriteF32Array(signature.chirality);
   WriteHalves(signature.point, writer);
   WriteHalves(signature.view, writer);
-  return SealBytes(kMagic, kSignatureVersion, writer.bytes());
+  return SealBytes(kSignatureMagic, kSignatureVersion, writer.bytes());
 }
 
 absl::StatusOr<ShapeSignature> DecodeSignature(std::string_view bytes) {
-  ARGMESH_ASSIGN_OR_RETURN(
-      const std::string_view payload,
-      OpenSealedBytes(kWhat, kMagic, kSignatureVersion, bytes));
-  ByteReader reader(payload, kWhat);
+  ARGMESH_ASSIGN_OR_RETURN(const std::string_view payload,
+                           OpenSealedBytes(kSignatureName, kSignatureMagic,
+                                           kSignatureVersion, bytes));
+  ByteReader reader(payload, kSignatureName);
   ShapeSignature signature;
   ARGMESH_ASSIGN_OR_RETURN(const uint8_t smoothed, reader.ReadU8());
   if (smoothed > 1) {

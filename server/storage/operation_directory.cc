@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMagic[] = "AOPR";
+constexpr char kRecordMagic[] = "AOPR";
 constexpr uint32_t kVersion = 1;
 
 absl::StatusOr<std::string> ReadSealed(const fs::path& path) {
@@ -30,7 +30,8 @@ absl::StatusOr<std::string> ReadSealed(const fs::path& path) {
   ARGMESH_ASSIGN_OR_RETURN(const int64_t size, FileSize(file, path));
   ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
                            ReadAt(file, path, 0, size));
-  const auto payload = OpenSealedBytes(path.string(), kMagic, kVersion, bytes);
+  const auto payload =
+      OpenSealedBytes(path.string(), kRecordMagic, kVersion, bytes);
   if (payload.ok()) return std::string(*payload);
   return MakeError(absl::IsDataLoss(payload.status())
                        ? ErrorReason::kStoredDataDamaged
@@ -57,7 +58,7 @@ absl::StatusOr<std::unique_ptr<OperationDirectory>> OperationDirectory::Open(
 
 absl::Status OperationDirectory::Keep(std::string_view id,
                                       std::string_view bytes) {
-  const std::string sealed = SealBytes(kMagic, kVersion, bytes);
+  const std::string sealed = SealBytes(kRecordMagic, kVersion, bytes);
   ARGMESH_ASSIGN_OR_RETURN(
       const SpaceClaim space,
       directory_->Claim(static_cast<int64_t>(sealed.size())));

@@ -18,7 +18,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int64_t kRowBytes = 2048;  // about what a shape's own row takes
+constexpr int64_t kShapeRowBytes = 2048;  // about what a shape's own row takes
 
 // What PutShape writes beside the record, made before its turn comes.
 struct PutBytes {
@@ -299,7 +299,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
                            put.descriptors.signature.size() +
                            put.descriptors.window_words.size() +
                            put.descriptors.windows.size()) +
-      bytes.size() + kRowBytes;
+      bytes.size() + kShapeRowBytes;
   ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(size));
   absl::StatusOr<ShapeWritten> written;
   ARGMESH_RETURN_IF_ERROR(
@@ -313,7 +313,7 @@ absl::StatusOr<ShapeWritten> SqliteCatalog::PutShape(const ShapePut& put) {
 absl::StatusOr<ShapeWritten> SqliteCatalog::UpdateShape(
     const ShapePatch& patch) {
   const int64_t size =
-      kRowBytes +
+      kShapeRowBytes +
       (patch.metadata
            ? static_cast<int64_t>(SerializeMetadata(*patch.metadata).size())
            : 0);
@@ -333,7 +333,7 @@ absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShape(
     const ShapeDelete& removal) {
   absl::StatusOr<ShapeDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
-      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+      writer_.Write(kShapeRowBytes, [&](SqliteConnection& connection) {
         deleted = WriteOnce(connection, removal.request, ParseShapeDeleted,
                             SerializeShapeDeleted,
                             [&] { return Delete(connection, removal); });
@@ -346,7 +346,7 @@ absl::StatusOr<ShapeDeleted> SqliteCatalog::DeleteShapes(
     const ShapesDelete& removal) {
   absl::StatusOr<ShapeDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
-      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+      writer_.Write(kShapeRowBytes, [&](SqliteConnection& connection) {
         deleted = WriteOnce(connection, removal.request, ParseShapeDeleted,
                             SerializeShapeDeleted,
                             [&] { return DeleteAll(connection, removal); });

@@ -15,7 +15,8 @@
 namespace argmesh {
 namespace {
 
-constexpr int64_t kRowBytes = 1024;  // about what a row without a graph takes
+constexpr int64_t kStageRowBytes =
+    1024;  // about what a row without a graph takes
 constexpr size_t kRemovedAtOnce = 64;
 
 // Shapes s of collection c, and null t where nothing is put aside for the mesh.
@@ -139,9 +140,9 @@ absl::StatusOr<std::vector<int64_t>> UnusedGraphs(
 absl::Status SqliteCatalog::BeginStage(std::string_view collection,
                                        std::string_view collection_uid,
                                        const SettingsStage& stage) {
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kRowBytes));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kStageRowBytes));
   return writer_.Write(
-      kRowBytes, [&](SqliteConnection& connection) -> absl::Status {
+      kStageRowBytes, [&](SqliteConnection& connection) -> absl::Status {
         ARGMESH_ASSIGN_OR_RETURN(
             const CollectionRow row,
             FindCollectionRow(connection, collection, collection_uid));
@@ -154,7 +155,7 @@ absl::Status SqliteCatalog::StageShape(const ShapeStaging& staging) {
                            MakeStagedBytes(staging.description));
   const auto size = static_cast<int64_t>(staging.description.graph.size() +
                                          bytes.labels.size()) +
-                    kRowBytes;
+                    kStageRowBytes;
   ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(size));
   return writer_.Write(size, [&](SqliteConnection& connection) {
     return Stage(connection, staging, bytes);
@@ -184,10 +185,10 @@ absl::StatusOr<std::vector<std::string>> SqliteCatalog::ListUnstaged(
 
 absl::StatusOr<std::optional<CollectionRecord>> SqliteCatalog::SwitchSettings(
     const SettingsSwitch& change) {
-  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kRowBytes));
+  ARGMESH_ASSIGN_OR_RETURN(const SpaceClaim space, ClaimSpace(kStageRowBytes));
   absl::StatusOr<std::optional<CollectionRecord>> switched;
   ARGMESH_RETURN_IF_ERROR(
-      writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+      writer_.Write(kStageRowBytes, [&](SqliteConnection& connection) {
         switched = Switch(connection, change);
         return switched.status();
       }));
@@ -204,7 +205,7 @@ absl::Status SqliteCatalog::RemoveUnusedGraphs(const StopToken& stop) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     const size_t end = std::min(unused->size(), begin + kRemovedAtOnce);
     ARGMESH_RETURN_IF_ERROR(
-        writer_.Write(kRowBytes, [&](SqliteConnection& connection) {
+        writer_.Write(kStageRowBytes, [&](SqliteConnection& connection) {
           absl::Status status;
           for (size_t i = begin; i < end && status.ok(); ++i) {
             status = DeleteGraph(connection, (*unused)[i]);

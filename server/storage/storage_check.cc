@@ -11,7 +11,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int64_t kPieceBytes = 1 << 20;
+constexpr int64_t kCheckedPieceBytes = 1 << 20;
 
 // Holds for the shapes `s` of the collections `c` that are looked at: those of
 // the first parameter, all when it is empty.
@@ -189,7 +189,7 @@ absl::Status ReadWholeMesh(
   while (true) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
-                             reader->Read(kPieceBytes));
+                             reader->Read(kCheckedPieceBytes));
     if (bytes.empty()) return absl::OkStatus();
     ARGMESH_RETURN_IF_ERROR(piece(bytes));
   }

@@ -39,6 +39,9 @@ class ChildProcess {
   std::filesystem::path err_;
 };
 
+// The bytes of a file; none where there is no file.
+std::string ReadAll(const std::filesystem::path& path);
+
 }  // namespace argmesh
 
 #endif  // ARGMESH_TESTS_E2E_CHILD_PROCESS_H_

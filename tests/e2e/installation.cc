@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr auto kStartTimeout = std::chrono::seconds(60);
 
-std::string ReadAll(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 int CountOf(const std::string& text, const std::string& in) {
   int count = 0;
   for (size_t at = in.find(text); at != std::string::npos;

@@ -11,6 +11,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "absl/time/clock.h"
@@ -47,13 +48,13 @@ std::ostream& NoLog() {
   return none;
 }
 
-std::unique_ptr<Engine> MakeEngine() {
+std::unique_ptr<Engine> MakeEngine(std::unique_ptr<Catalog> catalog,
+                                   std::unique_ptr<MeshStore> meshes) {
   EngineOptions options;
   options.pool.threads = {1, 1, 1};
   options.mesh_limits.max_vertices = 500;
   options.mesh_limits.max_faces = 1000;
-  auto engine = Engine::Create(options, std::make_unique<MemoryCatalog>(),
-                               std::make_unique<MemoryMeshStore>());
+  auto engine = Engine::Create(options, std::move(catalog), std::move(meshes));
   Require(engine.ok() && (*engine)->WaitUntilServing().ok(), "an engine");
   return *std::move(engine);
 }
@@ -75,12 +76,30 @@ void AddShapes(Engine& engine) {
   }
 }
 
+// What every service begins with; made once, as it takes far longer than a
+// request.
+struct Content {
+  Content() {
+    auto filled = std::make_unique<MemoryCatalog>();
+    auto filled_meshes = std::make_unique<MemoryMeshStore>();
+    const MemoryCatalog& from = *filled;
+    const MemoryMeshStore& from_meshes = *filled_meshes;
+    const auto engine = MakeEngine(std::move(filled), std::move(filled_meshes));
+    AddShapes(*engine);
+    catalog = from.Copy();
+    meshes = from_meshes.Copy();
+  }
+
+  std::unique_ptr<MemoryCatalog> catalog;
+  std::unique_ptr<MemoryMeshStore> meshes;
+};
+
 // Everything a request meets below gRPC.
 class Service {
  public:
-  Service()
+  explicit Service(const Content& content)
       : telemetry_(*Telemetry::Open({}, NoLog())),
-        engine_(MakeEngine()),
+        engine_(MakeEngine(content.catalog->Copy(), content.meshes->Copy())),
         environment_(*engine_, *telemetry_, "fuzz", {}, nullptr),
         admin_(environment_),
         collections_(environment_),
@@ -88,7 +107,6 @@ class Service {
         operations_(environment_),
         search_(environment_),
         shapes_(environment_) {
-    AddShapes(*engine_);
     for (const RpcService* service : std::initializer_list<const RpcService*>{
              &admin_, &collections_, &ingest_, &operations_, &search_,
              &shapes_}) {
@@ -146,9 +164,14 @@ class Service {
   std::vector<const UnaryMethod*> methods_;
 };
 
+std::unique_ptr<Service> MakeService() {
+  static const Content content;
+  return std::make_unique<Service>(content);
+}
+
 // The same at the beginning of every run.
 std::unique_ptr<Service>& TheService() {
-  static auto service = std::make_unique<Service>();
+  static auto service = MakeService();
   return service;
 }
 
@@ -176,7 +199,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto request = argmesh::ParseRequest(method, data + 1, size - 1);
   if (request != nullptr && !TheService()->Call(method, *request)) {
     TheService().reset();
-    TheService() = std::make_unique<argmesh::Service>();
+    TheService() = argmesh::MakeService();
   }
   return 0;
 }

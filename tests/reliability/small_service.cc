@@ -9,7 +9,7 @@
 namespace argmesh {
 namespace {
 
-constexpr auto kDeadline = std::chrono::seconds(20);
+constexpr auto kCallDeadline = std::chrono::seconds(20);
 constexpr int kVertexBudget = 600;
 constexpr double kMajorRadius = 2;
 constexpr int kMajorSegments = 20;
@@ -19,7 +19,7 @@ constexpr int kNotes = 15;
 constexpr size_t kNoteBytes = 1000;
 
 void SetDeadline(grpc::ClientContext& context) {
-  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  context.set_deadline(std::chrono::system_clock::now() + kCallDeadline);
 }
 
 // Makes a call of `stub`: empty when it was answered, else why not.

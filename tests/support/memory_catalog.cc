@@ -29,6 +29,14 @@ absl::StatusOr<std::optional<ShapeWritten>> AnswerStored(
 
 }  // namespace
 
+std::unique_ptr<MemoryCatalog> MemoryCatalog::Copy() const {
+  auto copy = std::make_unique<MemoryCatalog>();
+  const std::lock_guard lock(mutex_);
+  copy->collections_ = collections_;
+  copy->answers_ = answers_;
+  return copy;
+}
+
 absl::StatusOr<MemoryCatalog::Collection*> MemoryCatalog::Find(
     std::string_view id) {
   if (closed_) return CatalogClosedError();

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -74,6 +75,9 @@ class MemoryCatalog : public Catalog {
       const RequestStamp& request) const override;
   StoreLoad Load() const override { return {}; }
   absl::Status Close() override;
+
+  // Another one with the same content.
+  std::unique_ptr<MemoryCatalog> Copy() const;
 
   // The next PutShape answers `error` and changes nothing.
   void FailNextPut(absl::Status error);

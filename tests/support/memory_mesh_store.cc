@@ -151,6 +151,13 @@ absl::StatusOr<int64_t> MemoryMeshStore::Sweep(
   return removed;
 }
 
+std::unique_ptr<MemoryMeshStore> MemoryMeshStore::Copy() const {
+  auto copy = std::make_unique<MemoryMeshStore>();
+  const std::lock_guard lock(shared_->mutex);
+  copy->shared_->meshes = shared_->meshes;
+  return copy;
+}
+
 size_t MemoryMeshStore::size() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->meshes.size();

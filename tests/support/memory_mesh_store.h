@@ -25,6 +25,8 @@ class MemoryMeshStore : public MeshStore {
   absl::StatusOr<int64_t> Sweep(absl::Time older_than,
                                 const IsReferenced& is_referenced) override;
 
+  // Another one with the same meshes.
+  std::unique_ptr<MemoryMeshStore> Copy() const;
   // How many meshes are published.
   size_t size() const;
   // Makes the published bytes others than those of the name.

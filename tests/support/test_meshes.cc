@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/mesh/mesh_weld.h"
 
 namespace argmesh {
 namespace {
@@ -168,6 +169,14 @@ TriangleMesh RandomlyMoved(const TriangleMesh& mesh, uint64_t seed) {
     }
   }
   return moved;
+}
+
+double Area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (int f = 0; f < mesh.num_faces(); ++f) {
+    area += FaceCross(mesh, f).norm() / 2;
+  }
+  return area;
 }
 
 }  // namespace argmesh

@@ -34,6 +34,9 @@ TriangleMesh Translated(TriangleMesh mesh, const Eigen::Vector3d& by);
 // faces renumbered.
 TriangleMesh RandomlyMoved(const TriangleMesh& mesh, uint64_t seed);
 
+// Of all faces.
+double Area(const TriangleMesh& mesh);
+
 }  // namespace argmesh
 
 #endif  // ARGMESH_TESTS_SUPPORT_TEST_MESHES_H_

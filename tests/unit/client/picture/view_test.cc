@@ -10,12 +10,12 @@
 namespace argmesh {
 namespace {
 
-TriangleMesh Sample(const char* name) {
+TriangleMesh SampleMesh(const char* name) {
   return MakeSampleShape(name, 1, {.target_vertices = 2000}).value().mesh;
 }
 
 TEST(FitView, FillsThePictureAndStaysInside) {
-  const TriangleMesh mesh = Sample("airplane");
+  const TriangleMesh mesh = SampleMesh("airplane");
   const View view = FitView(mesh, 400, 300);
   const Eigen::Vector3d along_x = view.right * view.pixels_per_unit;
   const Eigen::Vector3d along_y = view.up * view.pixels_per_unit;
@@ -35,7 +35,7 @@ TEST(FitView, IsARightHandedOrthonormalFrame) {
   for (const bool standing : {false, true}) {
     ViewOptions options;
     if (standing) options.up = Eigen::Vector3d(0, 0, 2);
-    const View view = FitView(Sample("fish"), 300, 300, options);
+    const View view = FitView(SampleMesh("fish"), 300, 300, options);
     EXPECT_TRUE(view.right.cross(view.up).isApprox(view.toward, 1e-12));
     EXPECT_NEAR(view.right.norm(), 1, 1e-12);
     EXPECT_NEAR(view.up.norm(), 1, 1e-12);
@@ -47,7 +47,7 @@ TEST(FitView, LooksDownOnAShapeThatStands) {
                       .front = -Eigen::Vector3d::UnitY(),
                       .yaw_degrees = 0,
                       .pitch_degrees = 0};
-  const TriangleMesh chair = Sample("chair");
+  const TriangleMesh chair = SampleMesh("chair");
   View view = FitView(chair, 300, 300, options);
   EXPECT_TRUE(view.toward.isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
   EXPECT_TRUE(view.right.isApprox(Eigen::Vector3d::UnitX(), 1e-9));
@@ -58,7 +58,7 @@ TEST(FitView, LooksDownOnAShapeThatStands) {
 }
 
 TEST(FitView, TurnsWithTheShapeWhenItChoosesForItself) {
-  const TriangleMesh mesh = Sample("quadruped");
+  const TriangleMesh mesh = SampleMesh("quadruped");
   const View view = FitView(mesh, 300, 300);
   const TriangleMesh turned = RandomSimilarity(mesh, 12, {.renumber = false});
   const View turned_view = FitView(turned, 300, 300);

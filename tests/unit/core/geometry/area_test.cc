@@ -11,22 +11,21 @@
 namespace argmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(ComputeFaceAreas, SumToTheAreaOfASphere) {
   const double area = ComputeFaceAreas(MakeIrregularSphere(20, 2, 1)).sum();
-  EXPECT_NEAR(area, 16 * kPi, 0.01 * 16 * kPi);
-  EXPECT_LT(area, 16 * kPi);  // an inscribed polyhedron
+  EXPECT_NEAR(area, 16 * std::numbers::pi, 0.01 * 16 * std::numbers::pi);
+  EXPECT_LT(area, 16 * std::numbers::pi);  // an inscribed polyhedron
 }
 
 TEST(ComputeFaceAreas, SumToTheAreaOfATorus) {
-  EXPECT_NEAR(ComputeFaceAreas(MakeTorus(2, 0.5, 120, 60)).sum(), 4 * kPi * kPi,
-              0.005 * 4 * kPi * kPi);
+  EXPECT_NEAR(ComputeFaceAreas(MakeTorus(2, 0.5, 120, 60)).sum(),
+              4 * std::numbers::pi * std::numbers::pi,
+              0.005 * 4 * std::numbers::pi * std::numbers::pi);
 }
 
 TEST(ComputeFaceAreas, SumToTheAreaOfACylinder) {
   EXPECT_NEAR(ComputeFaceAreas(MakeOpenCylinder(1.5, 4, 100, 5, false)).sum(),
-              2 * kPi * 1.5 * 4, 0.002 * 12 * kPi);
+              2 * std::numbers::pi * 1.5 * 4, 0.002 * 12 * std::numbers::pi);
 }
 
 TEST(ComputeFaceAreas, AreZeroForADegenerateFace) {

@@ -14,8 +14,6 @@
 namespace argmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Collects faces by position; equal positions (to 1e-7) are one vertex.
 class MeshCollector {
  public:
@@ -140,8 +138,8 @@ TriangleMesh MakeTorus(double major_radius, double minor_radius,
   int f = 0;
   for (int i = 0; i < major_steps; ++i) {
     for (int j = 0; j < minor_steps; ++j) {
-      const double a = 2 * kPi * i / major_steps;
-      const double b = 2 * kPi * j / minor_steps;
+      const double a = 2 * std::numbers::pi * i / major_steps;
+      const double b = 2 * std::numbers::pi * j / minor_steps;
       const double r = major_radius + minor_radius * std::cos(b);
       mesh.V.row(at(i, j)) << r * std::cos(a), r * std::sin(a),
           minor_radius * std::sin(b);
@@ -162,7 +160,7 @@ TriangleMesh MakeOpenCylinder(double radius, double height, int around,
   for (int ring = 0; ring < rings; ++ring) {
     const bool turned = staggered && ring % 2 == 1;
     for (int i = 0; i < around; ++i) {
-      const double a = 2 * kPi * (i + (turned ? 0.5 : 0)) / around;
+      const double a = 2 * std::numbers::pi * (i + (turned ? 0.5 : 0)) / around;
       mesh.V.row(at(ring, i)) << radius * std::cos(a), radius * std::sin(a),
           height * ring / (rings - 1);
       if (ring + 1 == rings) continue;

@@ -13,8 +13,6 @@
 namespace argmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 VertexMatrix CylinderNormals(const TriangleMesh& mesh) {
   return NormalsBy(mesh, [](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(p.x(), p.y(), 0);
@@ -80,7 +78,7 @@ TEST(ComputeCurvatures, OfATorusFollowItsParallels) {
   const Curvatures c =
       ComputeCurvatures(mesh, normals, BuildSurfaceGraph(mesh), 0.07);
   for (int v = 0; v < mesh.num_vertices(); ++v) {
-    const double b = 2 * kPi * (v % 60) / 60;
+    const double b = 2 * std::numbers::pi * (v % 60) / 60;
     const double parallel = R + r * std::cos(b);
     ASSERT_NEAR(c.mean[v], (R + 2 * r * std::cos(b)) / (2 * r * parallel),
                 0.03);
@@ -94,11 +92,11 @@ TEST(ComputeCurvatures, IntegrateToTheEulerCharacteristic) {
   const TriangleMesh sphere = MakeIrregularSphere(12, 1.7, 34);
   const TriangleMesh torus = MakeTorus(1, 0.3, 60, 30);
   for (const auto& [mesh, integral] :
-       {std::pair(sphere, 4 * kPi), std::pair(torus, 0.0)}) {
+       {std::pair(sphere, 4 * std::numbers::pi), std::pair(torus, 0.0)}) {
     const Eigen::VectorXd areas = ComputeVertexAreas(mesh);
     const Curvatures c = ComputeCurvatures(mesh, ComputeVertexNormals(mesh),
                                            BuildSurfaceGraph(mesh), 0);
-    EXPECT_NEAR(c.gaussian.dot(areas), integral, 0.03 * 4 * kPi);
+    EXPECT_NEAR(c.gaussian.dot(areas), integral, 0.03 * 4 * std::numbers::pi);
   }
 }
 
@@ -109,7 +107,7 @@ TEST(ComputeCurvatures, AreExactOnASchwarzLantern) {
   for (const int around : {16, 32}) {
     const int rings = around * around / 5 + 1;
     const TriangleMesh mesh = MakeOpenCylinder(1, 1, around, rings, true);
-    EXPECT_GT(ComputeFaceAreas(mesh).sum(), 1.2 * 2 * kPi);
+    EXPECT_GT(ComputeFaceAreas(mesh).sum(), 1.2 * 2 * std::numbers::pi);
     const Curvatures c = ComputeCurvatures(mesh, CylinderNormals(mesh),
                                            BuildSurfaceGraph(mesh), 0.2);
     EXPECT_LT((c.mean.array() - 0.5).abs().maxCoeff(), 1e-9);

@@ -15,8 +15,6 @@
 namespace argmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Distances by relaxing every link until nothing changes.
 std::vector<double> BellmanFord(const SurfaceGraph& graph, int source) {
   std::vector<double> distance(static_cast<size_t>(graph.num_vertices()),
@@ -162,7 +160,7 @@ TEST(GeodesicSolver, IsNearlyExactOnACylinder) {
         const Eigen::Vector3d to = mesh.vertex(v);
         double angle = std::abs(std::atan2(to.y(), to.x()) -
                                 std::atan2(from.y(), from.x()));
-        angle = std::min(angle, 2 * kPi - angle);
+        angle = std::min(angle, 2 * std::numbers::pi - angle);
         return std::hypot(angle, to.z() - from.z());
       });
   EXPECT_LT(ratio.mean, 1.05);
@@ -216,9 +214,10 @@ TEST(ComputeAverageGeodesicDistance, IsHalfTheCircumferenceOnASphere) {
   const TriangleMesh mesh = MakeIrregularSphere(17, radius, 25);
   const Eigen::VectorXd average = ComputeAverageGeodesicDistance(
       BuildSurfaceGraph(mesh), ComputeVertexAreas(mesh));
-  EXPECT_NEAR(average.mean(), kPi * radius / 2, 0.03 * kPi * radius / 2);
-  EXPECT_GT(average.minCoeff(), 0.94 * kPi * radius / 2);
-  EXPECT_LT(average.maxCoeff(), 1.08 * kPi * radius / 2);
+  EXPECT_NEAR(average.mean(), std::numbers::pi * radius / 2,
+              0.03 * std::numbers::pi * radius / 2);
+  EXPECT_GT(average.minCoeff(), 0.94 * std::numbers::pi * radius / 2);
+  EXPECT_LT(average.maxCoeff(), 1.08 * std::numbers::pi * radius / 2);
 }
 
 TEST(ComputeAverageGeodesicDistance, IsLeastInTheMiddleOfATube) {
@@ -237,7 +236,8 @@ TEST(ComputeAverageGeodesicDistance, IsFiniteWithoutBridges) {
   const Eigen::VectorXd average = ComputeAverageGeodesicDistance(
       BuildSurfaceGraph(mesh, {.bridges = false}), ComputeVertexAreas(mesh));
   // Half the surface at pi/2 on average, half at the largest distance.
-  EXPECT_NEAR(average.mean(), (kPi / 2 + kPi) / 2, 0.2);
+  EXPECT_NEAR(average.mean(), (std::numbers::pi / 2 + std::numbers::pi) / 2,
+              0.2);
 }
 
 TEST(ComputeAverageGeodesicDistance, RepeatsBitForBitAndScales) {

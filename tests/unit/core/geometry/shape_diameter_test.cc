@@ -17,8 +17,6 @@
 namespace argmesh {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 using ::testing::HasSubstr;
 
 // The robust mean over the whole cone of 60 degrees, by a fine sampling of
@@ -29,7 +27,7 @@ double ConeAverage(const std::function<double(const Eigen::Vector3d&)>& chord) {
   for (int i = 0; i < 300; ++i) {
     const double z = 0.5 + 0.5 * (i + 0.5) / 300;
     for (int j = 0; j < 60; ++j) {
-      const double a = 2 * kPi * j / 60;
+      const double a = 2 * std::numbers::pi * j / 60;
       const double r = std::sqrt(1 - z * z);
       t.push_back(chord({r * std::cos(a), r * std::sin(a), z}));
       weight.push_back(z);

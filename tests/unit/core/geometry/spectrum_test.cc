@@ -21,8 +21,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
 struct Operator {
   Eigen::SparseMatrix<double> laplacian;
   Eigen::VectorXd areas;
@@ -123,7 +121,7 @@ TEST(ComputeSpectrum, OfTheSphereIsThatOfSphericalHarmonics) {
   int k = 0;
   for (int l = 0; l < 7; ++l) {
     for (int m = 0; m < 2 * l + 1; ++m, ++k) {
-      const double expected = l * (l + 1) * 4 * kPi;
+      const double expected = l * (l + 1) * 4 * std::numbers::pi;
       EXPECT_NEAR(spectrum.values[k], expected, 0.03 * expected + 1e-6)
           << "l " << l << " k " << k;
     }
@@ -243,7 +241,7 @@ TEST(ComputeSpectrum, TakesVerticesWithoutArea) {
   ASSERT_OK_AND_ASSIGN(const Spectrum s,
                        ComputeSpectrum(op.laplacian, op.areas, 20));
   EXPECT_TRUE(s.vectors.allFinite());
-  EXPECT_NEAR(s.values[1], 8 * kPi, 2);
+  EXPECT_NEAR(s.values[1], 8 * std::numbers::pi, 2);
 }
 
 TEST(ComputeSpectrum, RepeatsBitForBit) {

@@ -16,7 +16,7 @@ namespace {
 using ::testing::_;
 using ::testing::HasSubstr;
 
-std::string Reseal(const std::string& bytes) {
+std::string ResealLabels(const std::string& bytes) {
   return SealBytes("ARGL", kShapeGraphVersion, bytes.substr(kSealBytes));
 }
 
@@ -42,7 +42,7 @@ TEST(FaceLabelsCodec, RefusesEveryTruncation) {
                 StatusIs(absl::StatusCode::kDataLoss, _))
         << size;
     if (size < kSealBytes) continue;
-    ASSERT_THAT(ParseFaceLabels(Reseal(prefix)),
+    ASSERT_THAT(ParseFaceLabels(ResealLabels(prefix)),
                 StatusIs(absl::StatusCode::kDataLoss, HasSubstr("face labels")))
         << size;
   }
@@ -55,7 +55,7 @@ TEST(FaceLabelsCodec, NeverBelievesDamageBehindAValidChecksum) {
     std::string damaged = bytes;
     const size_t at = kSealBytes + random.Below(bytes.size() - kSealBytes);
     damaged[at] = static_cast<char>(random.Below(256));
-    damaged = Reseal(damaged);
+    damaged = ResealLabels(damaged);
     const absl::StatusOr<FaceLabels> parsed = ParseFaceLabels(damaged);
     if (parsed.ok()) {
       ASSERT_EQ(SerializeFaceLabels(*parsed), damaged) << i;

@@ -20,7 +20,7 @@ using ::testing::_;
 using ::testing::HasSubstr;
 
 // The seal put right again: damage reaches the parser behind it.
-std::string Reseal(const std::string& bytes) {
+std::string ResealGraph(const std::string& bytes) {
   return SealBytes("ARGG", kShapeGraphVersion, bytes.substr(kSealBytes));
 }
 
@@ -68,7 +68,7 @@ TEST(GraphCodec, RefusesEveryTruncation) {
                 StatusIs(absl::StatusCode::kDataLoss, _))
         << size;
     if (size < kSealBytes) continue;
-    ASSERT_THAT(ParseShapeGraph(Reseal(prefix)),
+    ASSERT_THAT(ParseShapeGraph(ResealGraph(prefix)),
                 StatusIs(absl::StatusCode::kDataLoss, HasSubstr("shape graph")))
         << size;
   }
@@ -76,7 +76,7 @@ TEST(GraphCodec, RefusesEveryTruncation) {
 
 TEST(GraphCodec, RefusesBytesLeftOver) {
   const std::string bytes = SerializeShapeGraph(MakeRandomGraph(3));
-  EXPECT_THAT(ParseShapeGraph(Reseal(bytes + '\0')),
+  EXPECT_THAT(ParseShapeGraph(ResealGraph(bytes + '\0')),
               StatusIs(absl::StatusCode::kDataLoss, HasSubstr("left over")));
 }
 
@@ -108,7 +108,7 @@ TEST(GraphCodec, NeverBelievesDamageBehindAValidChecksum) {
       const size_t at = kSealBytes + random.Below(bytes.size() - kSealBytes);
       damaged[at] = static_cast<char>(random.Below(256));
     }
-    damaged = Reseal(damaged);
+    damaged = ResealGraph(damaged);
     const absl::StatusOr<ShapeGraph> parsed = ParseShapeGraph(damaged);
     if (parsed.ok()) {
       ASSERT_THAT(CheckShapeGraph(*parsed), IsOk()) << i;

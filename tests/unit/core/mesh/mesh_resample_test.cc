@@ -26,14 +26,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-double Area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    area += FaceCross(mesh, f).norm() / 2;
-  }
-  return area;
-}
-
 TriangleMesh MakeTetrahedron() {
   TriangleMesh mesh;
   mesh.V.resize(4, 3);

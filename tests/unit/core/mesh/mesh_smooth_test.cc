@@ -11,14 +11,6 @@
 namespace argmesh {
 namespace {
 
-double Area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    area += FaceCross(mesh, f).norm() / 2;
-  }
-  return area;
-}
-
 TEST(SmoothTaubin, KeepsTheBoundaryInPlace) {
   TriangleMesh sheet = MakeSheet(8);
   Random random(1);

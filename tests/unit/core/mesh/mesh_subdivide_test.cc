@@ -22,14 +22,6 @@ double LongestEdge(const TriangleMesh& mesh) {
   return longest;
 }
 
-double Area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (int f = 0; f < mesh.num_faces(); ++f) {
-    area += FaceCross(mesh, f).norm() / 2;
-  }
-  return area;
-}
-
 TEST(SubdivideLongEdges, LeavesNoEdgeLongerThanTheBound) {
   for (const double bound : {1.3, 0.5, 0.2}) {
     SCOPED_TRACE(bound);

@@ -32,7 +32,7 @@ namespace argmesh {
 namespace {
 
 constexpr uint64_t kCollections = 4;
-constexpr uint64_t kShapes = 12;  // ids of each collection
+constexpr uint64_t kShapeIds = 12;  // ids of each collection
 constexpr uint64_t kMeshes = 30;
 constexpr double kRestart = 0.004;
 constexpr double kCompare = 0.02;
@@ -129,7 +129,7 @@ class Operations {
   std::string CollectionId() {
     return absl::StrCat("c", random_.Below(kCollections));
   }
-  std::string ShapeId() { return absl::StrCat("s", random_.Below(kShapes)); }
+  std::string ShapeId() { return absl::StrCat("s", random_.Below(kShapeIds)); }
 
   // Mostly none, sometimes the stored one, sometimes an old one.
   std::string Etag(const std::string& stored) {
@@ -253,7 +253,7 @@ class Operations {
   Operation DeleteShapes() {
     ShapesDelete removal;
     removal.collection = CollectionId();
-    for (uint64_t i = 0; i < kShapes; ++i) {
+    for (uint64_t i = 0; i < kShapeIds; ++i) {
       if (random_.Below(3) == 0) removal.ids.push_back(absl::StrCat("s", i));
     }
     removal.request = Stamp("DeleteShapes", absl::StrJoin(removal.ids, ","));
@@ -297,7 +297,7 @@ class Operations {
         record.ok() ? *record : SampleCollection("c0");
     const SettingsStage stage = StageOf(collection.id);
     std::vector<ShapeStaging> stagings;
-    for (uint64_t i = 0; i < kShapes; ++i) {
+    for (uint64_t i = 0; i < kShapeIds; ++i) {
       if (random_.Below(16) == 0) continue;
       ShapeStaging& staging = stagings.emplace_back(SampleStaging(
           collection, absl::StrCat("s", i), random_.Below(kMeshes), stage));
