@@ -14,12 +14,6 @@
 #include "core/base/status_macros.h"
 
 namespace argmesh {
-namespace {
-
-// A page of a list, the server's largest.
-constexpr int kCollectionsPerPage = 1000;
-
-}  // namespace
 
 void Client::Parts::Prepare(absl::Time deadline,
                             grpc::ClientContext& context) const {
@@ -133,7 +127,7 @@ absl::StatusOr<v1::ListCollectionsResponse> Client::ListCollections(
 absl::Status Client::ForEachCollection(
     const std::function<bool(const v1::Collection&)>& visit) {
   v1::ListCollectionsRequest request;
-  request.set_page_size(kCollectionsPerPage);
+  request.set_page_size(kPageSize);
   do {
     ARGMESH_ASSIGN_OR_RETURN(const v1::ListCollectionsResponse page,
                              ListCollections(request));

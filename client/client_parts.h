@@ -28,6 +28,9 @@
 
 namespace argmesh {
 
+// A page of a list, the server's largest.
+inline constexpr int kPageSize = 1000;
+
 // Whether a call may be made again after a failure that leaves open what
 // became of it.
 enum class Repeat { kNever, kSafe };

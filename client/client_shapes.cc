@@ -13,8 +13,6 @@
 namespace argmesh {
 namespace {
 
-constexpr int kShapesPerPage = 1000;
-
 absl::Status CheckDownload(const v1::DownloadMeshHeader& header,
                            std::string_view bytes) {
   if (static_cast<int64_t>(bytes.size()) != header.size_bytes()) {
@@ -111,7 +109,7 @@ absl::Status Client::ForEachShape(
   v1::ListShapesRequest request;
   request.set_parent(std::string(collection_name));
   request.set_filter(filter);
-  request.set_page_size(kShapesPerPage);
+  request.set_page_size(kPageSize);
   do {
     ARGMESH_ASSIGN_OR_RETURN(const v1::ListShapesResponse page,
                              ListShapes(request));

@@ -13,7 +13,6 @@ namespace argmesh {
 namespace {
 
 constexpr double kMinEigenvalue = 1e-3;
-constexpr double kMinDiameter = 1e-3;
 
 // The joint space, dim x samples: eigenvectors over their eigenvalues, whose
 // distances are Lipman, Rustamov, Funkhouser's biharmonic distance ("Biharmonic

@@ -11,7 +11,6 @@ namespace {
 // A jump of one octave in shape diameter over this length costs as much as a
 // crease of the same dimensionless strength.
 constexpr double kThicknessLength = 0.02;
-constexpr double kThinnest = 1e-3;
 constexpr double kMinSquaredLength = 1e-12;
 
 }  // namespace
@@ -26,7 +25,7 @@ std::vector<double> ComputeConductances(const TriangleMesh& samples,
   std::vector<double> conductances =
       ComputeCotangentWeights(samples, graph, cotangent);
   const Eigen::VectorXd log_diameter =
-      features.shape_diameter.array().max(kThinnest).log() / std::log(2.0);
+      features.shape_diameter.array().max(kMinDiameter).log() / std::log(2.0);
   for (int v = 0; v < graph.num_vertices(); ++v) {
     const auto first =
         static_cast<size_t>(graph.offsets[static_cast<size_t>(v)]);

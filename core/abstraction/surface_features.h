@@ -23,6 +23,10 @@ struct FeatureOptions {
   int eigenpairs = 60;             // for the wave kernel signature
 };
 
+// Where logarithms of shape diameters are taken, what is thinner counts as this
+// thick.
+inline constexpr double kMinDiameter = 1e-3;
+
 // n samples; distances in sqrt(area), so the surface's area is 1.
 struct SurfaceFeatures {
   Eigen::VectorXd areas;             // n, sum 1

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kInsideSamples = 64;
 constexpr int kWholeSamples = 150;
-constexpr double kMinDiameter = 1e-3;
 constexpr double kMinWaveKernel = 1e-6;
 
 // Mean and standard deviation under weights.

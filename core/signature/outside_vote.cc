@@ -13,6 +13,7 @@
 #include "core/geometry/ray_scene.h"
 #include "core/mesh/mesh_edges.h"
 #include "core/mesh/mesh_weld.h"
+#include "core/signature/ray_fields.h"
 
 namespace argmesh {
 namespace {
@@ -21,7 +22,6 @@ constexpr int kPoints = 4096;
 constexpr int kVoteRays = 8;
 constexpr double kSteepest = 0.95;  // cosine to the normal
 constexpr double kFlattest = 0.25;
-constexpr float kVoteOffset = 1e-4F;  // of a ray's origin from the surface
 constexpr int kPointsBetweenStops = 256;
 
 struct Pieces {
@@ -101,8 +101,8 @@ int CountEscapes(const RayScene& scene, const Eigen::Vector3f& point,
   for (const Eigen::Vector3f& direction : directions) {
     const Eigen::Vector3f ray = frame * direction;
     const Eigen::Vector3f back = ray - 2 * direction.z() * normal;
-    if (!scene.IsOccluded(point + kVoteOffset * normal, ray)) ++lead;
-    if (!scene.IsOccluded(point - kVoteOffset * normal, back)) --lead;
+    if (!scene.IsOccluded(point + kRayOffset * normal, ray)) ++lead;
+    if (!scene.IsOccluded(point - kRayOffset * normal, back)) --lead;
   }
   return lead;
 }

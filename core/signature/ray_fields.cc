@@ -13,7 +13,6 @@ namespace {
 
 constexpr size_t kConeRays = 30;
 constexpr double kConeCosine = 0.5;
-constexpr float kConeOffset = 1e-4F;  // of a ray's origin from the surface
 constexpr double kMinAngle = 0.15;
 
 struct ConeRay {
@@ -78,8 +77,8 @@ RayFields CastPointRays(const RayScene& scene, const Eigen::Vector3f& point,
   for (const ConeRay& ray : cone) {
     const Eigen::Vector3f out = frame * ray.direction;
     const Eigen::Vector3f in = out - 2 * ray.direction.z() * normal;
-    if (scene.IsOccluded(point + kConeOffset * normal, out)) ++occluded;
-    const auto exit = scene.FindExit(point - kConeOffset * normal, in, 0);
+    if (scene.IsOccluded(point + kRayOffset * normal, out)) ++occluded;
+    const auto exit = scene.FindExit(point - kRayOffset * normal, in, 0);
     if (exit) hits[count++] = {*exit, ray.weight};
   }
   return {RobustMean({hits.data(), count}),

@@ -8,6 +8,9 @@
 
 namespace argmesh {
 
+// Of a ray's origin from the surface, of area 1.
+inline constexpr float kRayOffset = 1e-4F;
+
 struct RayFields {
   // Mean length of 30 rays within 60 degrees of the inward normal, those more
   // than a standard deviation from the median left out, steep ones weighing

@@ -16,6 +16,9 @@
 
 namespace argmesh {
 
+// Of what is read through, and not kept, at a time.
+inline constexpr int64_t kPieceBytes = 1 << 20;
+
 // An open file descriptor; -1: none.
 class PosixFile {
  public:

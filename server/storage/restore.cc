@@ -31,7 +31,6 @@ constexpr char kRestoring[] = "restoring";
 // In it: the snapshot is whole. Holds the name of the folder for the data that
 // was there before.
 constexpr char kComplete[] = "complete";
-constexpr int64_t kRestoredPieceBytes = 1 << 20;
 constexpr int64_t kMaxFolderName = 100;
 
 absl::Status Damaged(const fs::path& snapshot, const std::string& what) {
@@ -47,7 +46,7 @@ absl::StatusOr<Sha256Digest> Unpack(ArchiveReader& archive,
   Sha256Hasher hasher;
   while (true) {
     ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
-                             archive.Read(kRestoredPieceBytes));
+                             archive.Read(kPieceBytes));
     if (bytes.empty()) break;
     hasher.Update(bytes);
     ARGMESH_RETURN_IF_ERROR(WriteAll(file, path, bytes));
@@ -64,7 +63,7 @@ absl::Status CheckVersion(ArchiveReader& archive, const fs::path& snapshot) {
         absl::StrFormat("%s is no argmesh snapshot", snapshot.string()));
   }
   ARGMESH_ASSIGN_OR_RETURN(const std::string version,
-                           archive.Read(kRestoredPieceBytes));
+                           archive.Read(kPieceBytes));
   if (version == kSnapshotVersion) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s is of another version of snapshots than this program reads",

@@ -33,7 +33,6 @@ namespace fs = std::filesystem;
 constexpr char kUnfinished[] = ".part";
 constexpr char kSuffix[] = ".tar";
 constexpr char kDigestSuffix[] = ".sha256";
-constexpr int64_t kWrittenPieceBytes = 1 << 20;
 constexpr size_t kDigestDigits = 64;
 constexpr std::chrono::milliseconds kBetweenTries(10);
 
@@ -66,10 +65,10 @@ absl::Status AppendFile(const fs::path& path, const char* member,
   ARGMESH_ASSIGN_OR_RETURN(const PosixFile file, OpenFile(path, O_RDONLY));
   ARGMESH_ASSIGN_OR_RETURN(const int64_t size, FileSize(file, path));
   ARGMESH_RETURN_IF_ERROR(archive.Begin(member, size));
-  for (int64_t position = 0; position < size; position += kWrittenPieceBytes) {
+  for (int64_t position = 0; position < size; position += kPieceBytes) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
-                             ReadAt(file, path, position, kWrittenPieceBytes));
+                             ReadAt(file, path, position, kPieceBytes));
     ARGMESH_RETURN_IF_ERROR(archive.Append(bytes));
   }
   return absl::OkStatus();

@@ -15,8 +15,8 @@
 namespace argmesh {
 namespace {
 
-constexpr int64_t kStageRowBytes =
-    1024;  // about what a row without a graph takes
+// About what a row without a graph takes.
+constexpr int64_t kStageRowBytes = 1024;
 constexpr size_t kRemovedAtOnce = 64;
 
 // Shapes s of collection c, and null t where nothing is put aside for the mesh.

@@ -6,12 +6,11 @@
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/posix_file.h"
 #include "server/storage/stopped_queries.h"
 
 namespace argmesh {
 namespace {
-
-constexpr int64_t kCheckedPieceBytes = 1 << 20;
 
 // Holds for the shapes `s` of the collections `c` that are looked at: those of
 // the first parameter, all when it is empty.
@@ -189,7 +188,7 @@ absl::Status ReadWholeMesh(
   while (true) {
     ARGMESH_RETURN_IF_ERROR(stop.Check());
     ARGMESH_ASSIGN_OR_RETURN(const std::string bytes,
-                             reader->Read(kCheckedPieceBytes));
+                             reader->Read(kPieceBytes));
     if (bytes.empty()) return absl::OkStatus();
     ARGMESH_RETURN_IF_ERROR(piece(bytes));
   }
