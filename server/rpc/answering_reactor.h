@@ -2,18 +2,22 @@
 //
 // gRPC keeps the answer until the caller has taken it: who does not within the
 // stream idle timeout, or whose answers take the memory of others
-// (ServiceEnvironment::answers), is cut.
+// (ServiceEnvironment::answers), is cut. While a connection has much to take,
+// no more answers are made for it.
 #ifndef ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 
 #include <grpcpp/grpcpp.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "absl/time/time.h"
+#include "server/rpc/peer_budget.h"
 #include "server/rpc/peer_wait.h"
+#include "server/rpc/status.h"
 
 namespace argmesh {
 
@@ -31,20 +35,47 @@ class AnsweringReactor : public Base {
 
   void OnTick(absl::Time now) override {
     Base::OnTick(now);
-    if (answered_.Lasted(now) > this->environment().stream_idle_timeout()) {
-      Cut();
-    }
+    const absl::Duration limit = this->environment().stream_idle_timeout();
+    if (answered_.Lasted(now) > limit) Cut();
+    if (!postponed_.pending()) return;
+    absl::Status status = this->stop().Check();
+    if (postponed_.Lasted(now) > limit) status.Update(TooManyUnreadAnswers());
+    if (!status.ok()) this->FinishOnce(status);
+  }
+
+  void OnDrain(absl::Duration grace) override {
+    Base::OnDrain(grace);
+    if (postponed_.pending()) this->FinishOnce(ServerDraining());
   }
 
   void OnOverBudget() final {
     if (answered_.pending()) {
       Cut();
+    } else if (postponed_.pending()) {
+      this->FinishOnce(TooManyUnreadAnswers());
     } else {
       Base::OnOverBudget();
     }
   }
 
  protected:
+  // True, and `again` is run later, when the connection has not taken so much
+  // that no more is made for it. Until then the call gives up its place and
+  // counts with the `bytes` of its request among those that are slow.
+  bool Postpone(int64_t bytes, const std::function<void()>& again) {
+    PeerBudget& answers = this->environment().answers;
+    if (answers.HasRoom(this->scope().peer())) return false;
+    this->ReleasePlace();
+    postponed_.Begin();
+    this->Hold(this->environment().requests, bytes);
+    this->WhenRoom(answers, [this, again] {
+      postponed_.End();
+      this->LetGo(this->environment().requests);
+      again();
+    });
+    return true;
+  }
+
   // What is sent when the call is finished as OK.
   Response& response() { return *response_; }
 
@@ -54,9 +85,8 @@ class AnsweringReactor : public Base {
       return;
     }
     answered_.Begin();
-    this->environment().answers.Add(
-        this, this->scope().peer(),
-        static_cast<int64_t>(response_->ByteSizeLong()));
+    this->Hold(this->environment().answers,
+               static_cast<int64_t>(response_->ByteSizeLong()));
     this->StartWriteAndFinish(response_.get(), grpc::WriteOptions(), status);
   }
 
@@ -67,6 +97,7 @@ class AnsweringReactor : public Base {
 
   const std::unique_ptr<Response> response_;
   PeerWait answered_;
+  PeerWait postponed_;
 };
 
 }  // namespace argmesh

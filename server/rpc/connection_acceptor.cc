@@ -30,8 +30,10 @@ constexpr char kAnyAddress[] = "::";
 constexpr rlim_t kWantedDescriptors = 16384;
 
 // Nothing is taken of a host whose connection was cut, and what was taken so
-// shortly before is cut too: they come in masses.
-constexpr auto kShunned = std::chrono::seconds(1);
+// shortly before is cut too: they come in masses. Each time that comes soon
+// after the last it is twice as long.
+constexpr auto kFirstShunned = std::chrono::seconds(1);
+constexpr auto kLastShunned = std::chrono::seconds(8);
 
 // Until descriptors are looked for again.
 constexpr auto kPause = std::chrono::milliseconds(50);
@@ -268,9 +270,11 @@ bool ConnectionAcceptor::Remember(int connection) {
   const auto now = Clock::now();
   Connection made = {CookieOf(connection), PeerOf(connection), now};
   const std::lock_guard lock(mutex_);
-  std::erase_if(shunned_,
-                [now](const auto& host) { return host.second < now; });
-  if (shunned_.contains(HostOf(made.peer))) return false;
+  std::erase_if(shunned_, [now](const auto& host) {
+    return host.second.end + kLastShunned < now;
+  });
+  const auto shunned = shunned_.find(HostOf(made.peer));
+  if (shunned != shunned_.end() && now < shunned->second.end) return false;
   // Of those that are gone the number is reused.
   connections_[connection] = std::move(made);
   return true;
@@ -282,10 +286,10 @@ void ConnectionAcceptor::Cut(const std::string& peer) {
   const std::string host = HostOf(name);
   const auto now = Clock::now();
   const std::lock_guard lock(mutex_);
-  shunned_[host] = now + kShunned;
+  Shun(host, now);
   for (auto it = connections_.begin(); it != connections_.end();) {
     const Connection& connection = it->second;
-    const bool is_young = now - connection.taken < kShunned;
+    const bool is_young = now - connection.taken < kFirstShunned;
     if (connection.peer == name ||
         (is_young && HostOf(connection.peer) == host)) {
       if (DisconnectIfSame(it->first, connection.cookie)) ++cut_;
@@ -293,6 +297,16 @@ void ConnectionAcceptor::Cut(const std::string& peer) {
     } else {
       ++it;
     }
+  }
+}
+
+void ConnectionAcceptor::Shun(const std::string& host, Clock::time_point now) {
+  const auto known = shunned_.find(host);
+  if (known == shunned_.end()) {
+    shunned_[host] = {now + kFirstShunned, kFirstShunned};
+  } else if (Shunned& shunned = known->second; shunned.end <= now) {
+    shunned.length = std::min<Clock::duration>(2 * shunned.length, kLastShunned);
+    shunned.end = now + shunned.length;
   }
 }
 

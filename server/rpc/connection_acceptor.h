@@ -6,8 +6,8 @@
 // the store's and the logs', and takes the next once others are closed.
 //
 // It can also cut a connection, and those of its host that are a second old at
-// most: what they have sent and gRPC has not read yet is dropped, and for a
-// second nothing of the host is taken.
+// most: what they have sent and gRPC has not read yet is dropped, and nothing
+// of the host is taken for a second, or for up to eight when it comes again.
 //
 //   acceptor.Listen(address) // bound, nothing is taken yet
 //   acceptor.Serve(sink)     // once the server runs
@@ -71,11 +71,17 @@ class ConnectionAcceptor {
     Clock::time_point taken;
   };
 
+  struct Shunned {
+    Clock::time_point end;
+    Clock::duration length;
+  };
+
   absl::StatusOr<int> BindAll(const ListenAddress& address);
   void Run();
   void Take(int listener);
   // False when nothing of the host is taken now.
   bool Remember(int connection);
+  void Shun(const std::string& host, Clock::time_point now);  // locked
 
   std::vector<int> listeners_;
   int wake_ = -1;  // an eventfd: readable once Stop was called
@@ -84,7 +90,7 @@ class ConnectionAcceptor {
   std::atomic<int64_t> cut_{0};
   std::mutex mutex_;
   std::unordered_map<int, Connection> connections_;   // with mutex_
-  std::map<std::string, Clock::time_point> shunned_;  // hosts; with mutex_
+  std::map<std::string, Shunned> shunned_;           // hosts; with mutex_
   std::thread thread_;
 };
 

@@ -23,6 +23,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -67,10 +68,13 @@ class GuardedReactor
   }
 
   void OnDone() final {
-    // First: no tick may add it to a budget that it has been removed from.
+    {
+      const std::lock_guard lock(done_mutex_);
+      done_ = true;
+    }
     environment().calls.Leave(this);
-    environment().answers.Remove(this);
-    environment().requests.Remove(this);
+    environment().answers.Remove(this, scope_.peer());
+    environment().requests.Remove(this, scope_.peer());
     environment().connections.Leave(scope_.peer());
     self_.reset();  // may delete this
   }
@@ -111,6 +115,27 @@ class GuardedReactor
     const std::lock_guard lock(scope_.mutex());
     if (!scope_.finished()) ticket_ = *std::move(ticket);
     return true;
+  }
+
+  // Counts `bytes` that the call holds for its peer, until it is done. Not with
+  // the scope's mutex.
+  void Hold(PeerBudget& budget, int64_t bytes) {
+    const std::lock_guard lock(done_mutex_);
+    if (!done_) budget.Hold(this, scope_.peer(), bytes);
+  }
+  void LetGo(PeerBudget& budget) { budget.Remove(this, scope_.peer()); }
+
+  // Runs `step` once the peer's connection has room in `budget` for more; never
+  // when the call is done before.
+  void WhenRoom(PeerBudget& budget, const std::function<void()>& step) {
+    {
+      const std::lock_guard lock(done_mutex_);
+      const auto later = [this, self = this->shared_from_this(), step] {
+        Guard(step);
+      };
+      if (done_ || budget.AwaitRoom(this, scope_.peer(), later)) return;
+    }
+    Guard(step);
   }
 
   // Gives the place back before the call is finished.
@@ -197,6 +222,9 @@ class GuardedReactor
   Admission::Ticket ticket_;              // with the scope's mutex
   std::vector<PoolStep> waiting_;         // with the scope's mutex
   std::shared_ptr<GuardedReactor> self_;  // until OnDone
+  // A budget must not get a call that it has lost already.
+  std::mutex done_mutex_;
+  bool done_ = false;  // with done_mutex_
 };
 
 template <typename Reactor, typename... Args>

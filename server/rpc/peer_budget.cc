@@ -1,11 +1,15 @@
 #include "server/rpc/peer_budget.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace argmesh {
 
-void PeerBudget::Add(LiveCall* call, const std::string& peer, int64_t bytes) {
+void PeerBudget::Hold(LiveCall* call, const std::string& peer, int64_t bytes) {
   const std::lock_guard lock(mutex_);
+  if (const auto held = holdings_.find(call); held != holdings_.end()) {
+    Forget(held);
+  }
   const auto connection = connections_.try_emplace(peer).first;
   connection->second.bytes += bytes;
   connection->second.calls.push_back(call);
@@ -20,10 +24,31 @@ void PeerBudget::Add(LiveCall* call, const std::string& peer, int64_t bytes) {
   }
 }
 
-void PeerBudget::Remove(LiveCall* call) {
+void PeerBudget::Remove(LiveCall* call, const std::string& peer) {
+  Step next;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto holding = holdings_.find(call);
+    if (holding != holdings_.end()) Forget(holding);
+    if (const auto waiting = waiting_.find(peer); waiting != waiting_.end()) {
+      std::erase_if(waiting->second,
+                    [call](const Waiting& w) { return w.call == call; });
+      next = TakeNext(peer);
+    }
+  }
+  if (next) next();
+}
+
+bool PeerBudget::HasRoom(const std::string& peer) const {
   const std::lock_guard lock(mutex_);
-  const auto holding = holdings_.find(call);
-  if (holding != holdings_.end()) Forget(holding);
+  return HasRoomLocked(peer);
+}
+
+bool PeerBudget::AwaitRoom(LiveCall* call, const std::string& peer, Step step) {
+  const std::lock_guard lock(mutex_);
+  if (HasRoomLocked(peer)) return false;
+  waiting_[peer].push_back({call, std::move(step)});
+  return true;
 }
 
 int64_t PeerBudget::bytes() const {
@@ -34,6 +59,23 @@ int64_t PeerBudget::bytes() const {
 int64_t PeerBudget::cut() const {
   const std::lock_guard lock(mutex_);
   return cut_;
+}
+
+bool PeerBudget::HasRoomLocked(const std::string& peer) const {
+  const auto connection = connections_.find(peer);
+  return connection == connections_.end() || connection->second.bytes < room_;
+}
+
+PeerBudget::Step PeerBudget::TakeNext(const std::string& peer) {
+  const auto waiting = waiting_.find(peer);
+  std::deque<Waiting>& steps = waiting->second;
+  Step next;
+  if (!steps.empty() && HasRoomLocked(peer)) {
+    next = std::move(steps.front().step);
+    steps.pop_front();
+  }
+  if (steps.empty()) waiting_.erase(waiting);
+  return next;
 }
 
 LiveCall* PeerBudget::OldestOfTheLargest() const {

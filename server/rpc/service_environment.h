@@ -26,9 +26,12 @@ namespace argmesh {
 inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
 
-// Of all answers together that are made and not taken; of all requests that do
-// not come whole promptly, each counted as a full message.
+// Of all answers together that are made and not taken, and of those of one
+// connection before it gets more; of all requests that do not come whole
+// promptly, each counted as a full message, or wait for their connection to
+// take its answers.
 inline constexpr int64_t kMaxUnreadBytes = 128 << 20;
+inline constexpr int64_t kMaxUnreadBytesOfAPeer = 4 << 20;
 inline constexpr int64_t kMaxSlowRequestBytes = 256 << 20;
 
 inline constexpr int kMaxPageSize = 1000;
@@ -86,7 +89,7 @@ struct ServiceEnvironment {
   Admission ingests;
   CallRegistry calls;
   ConnectionCalls connections;
-  PeerBudget answers{kMaxUnreadBytes};
+  PeerBudget answers{kMaxUnreadBytes, kMaxUnreadBytesOfAPeer};
   PeerBudget requests{kMaxSlowRequestBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served
   const ImportSource* import_source = nullptr;  // none: IMPORT_NOT_ENABLED

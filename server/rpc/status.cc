@@ -9,6 +9,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "server/engine/error_reason.h"
 #include "server/rpc/peer_pace.h"
+#include "server/rpc/service_environment.h"
 
 namespace argmesh {
 namespace {
@@ -211,6 +212,15 @@ absl::Status TooManySlowRequests() {
       MakeError(ErrorReason::kOverloaded,
                 "too many requests that do not come whole; this connection has "
                 "the most of them"),
+      absl::Seconds(1));
+}
+
+absl::Status TooManyUnreadAnswers() {
+  return WithRetryDelay(
+      MakeError(ErrorReason::kOverloaded,
+                absl::StrFormat(
+                    "this connection has not taken answers of %d bytes or more",
+                    kMaxUnreadBytesOfAPeer)),
       absl::Seconds(1));
 }
 

@@ -40,6 +40,8 @@ absl::Status StreamTooSlow(absl::Duration limit);
 absl::Status StreamOrderInvalid(std::string_view why);
 // OVERLOADED, for a request that has not come whole.
 absl::Status TooManySlowRequests();
+// OVERLOADED, for a call of a connection that does not take its answers.
+absl::Status TooManyUnreadAnswers();
 // OVERLOADED, for a connection that is cut.
 absl::Status TooManyCallsOfAConnection();
 // DRAINING.

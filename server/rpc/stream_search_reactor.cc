@@ -58,7 +58,7 @@ void StreamSearchReactor::Prepare(const SearchAnswer& answer) {
   for (const v1::StreamSearchShapesResponse& message : messages_) {
     bytes += static_cast<int64_t>(message.ByteSizeLong());
   }
-  environment().answers.Add(this, scope().peer(), bytes);
+  Hold(environment().answers, bytes);
 }
 
 absl::StatusOr<bool> StreamSearchReactor::Continue(

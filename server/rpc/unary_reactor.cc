@@ -17,6 +17,10 @@ void UnaryReactor::Requested(
   const UnaryPlan& plan = method_.plan;
   if (plan.admission != nullptr && !AdmitTo(*plan.admission)) return;
   Run(plan.work_class, [this, request = std::move(request)]() mutable {
+    if (Postpone(static_cast<int64_t>(request->ByteSizeLong()),
+                 [this, request] { Requested(request); })) {
+      return;
+    }
     const absl::Status status = method_.body(
         {environment(), stop(), scope().caller()}, *request, &response());
     // Before the answer, which waits until the caller takes it.
