@@ -57,8 +57,8 @@ EngineOptions EngineOptionsOf(const ServerOptions& options) {
   engine.mesh_limits.max_bytes = options.max_mesh_bytes;
   engine.mesh_memory = options.mesh_memory;
   if (options.threads > 0) {
-    engine.pool.threads = {options.threads, std::max(1, options.threads - 1),
-                           2 * options.threads};
+    const int most = std::max(1, options.threads - 1);
+    engine.pool.threads = {options.threads, most, 2 * options.threads, most};
   }
   return engine;
 }

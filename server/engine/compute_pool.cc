@@ -27,7 +27,7 @@
 namespace argmesh {
 namespace {
 
-constexpr int kComputeNiceness = 5;
+constexpr int kLowNiceness = 5;
 
 absl::Status Refusal(const char* why, absl::Duration retry_after) {
   return WithRetryDelay(MakeError(ErrorReason::kOverloaded, why), retry_after);
@@ -39,6 +39,10 @@ absl::Status DrainingError() {
       absl::Seconds(1));
 }
 
+bool HasLowPriority(WorkClass work_class) {
+  return work_class == WorkClass::kCompute || work_class == WorkClass::kBulk;
+}
+
 // Lowers the calling thread's priority; on Linux niceness is per thread. That
 // it is refused somewhere only costs fairness.
 void LowerPriorityOnce() {
@@ -46,7 +50,7 @@ void LowerPriorityOnce() {
   if (lowered) return;
   lowered = true;
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
-  (void)setpriority(PRIO_PROCESS, thread, kComputeNiceness);
+  (void)setpriority(PRIO_PROCESS, thread, kLowNiceness);
 }
 
 // One ParallelFor, shared by the caller and the threads that join it.
@@ -114,7 +118,8 @@ class ComputePool::State {
 ComputePool::State::State(const ComputePoolOptions& options)
     : max_wait_(options.max_wait) {
   const int cpus = AvailableCpus();
-  const int defaults[kNumWorkClasses] = {cpus, std::max(1, cpus - 1), 2 * cpus};
+  const int most = std::max(1, cpus - 1);
+  const int defaults[kNumWorkClasses] = {cpus, most, 2 * cpus, most};
   for (size_t c = 0; c < kNumWorkClasses; ++c) {
     const int threads =
         options.threads[c] > 0 ? options.threads[c] : defaults[c];
@@ -169,7 +174,7 @@ bool ComputePool::State::MakeRoom(Lane& lane, const std::string& caller) {
 // neither: what is posted to a pool that has been joined never runs.
 void ComputePool::State::Start(Lane& lane, Work work) {
   asio::post(lane.pool, [this, &lane, work = std::move(work)]() mutable {
-    if (lane.work_class == WorkClass::kCompute) LowerPriorityOnce();
+    if (HasLowPriority(lane.work_class)) LowerPriorityOnce();
     // Gone, with what it holds, before the thread takes what waits.
     std::exchange(work, nullptr)(absl::OkStatus());
     Serve(lane);

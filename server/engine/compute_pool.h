@@ -1,9 +1,10 @@
 // The threads that blocking work runs on, and who is let in.
 //
-// Three bounded classes, so that none starves another: searches with all they
-// need (also the graph of a query mesh), the computation of what is stored, and
-// short blocking calls (reads, upload chunks).
-// Threads of kCompute run at a lower priority than the others.
+// Four bounded classes, so that none starves another: searches with all they
+// need (also the graph of a query mesh), the computation of what is stored,
+// short blocking calls (reads, upload chunks), and those that may touch many
+// shapes or send megabytes (pages, batches, graphs). Threads of kCompute and
+// kBulk run at a lower priority than the others.
 //
 // Work that cannot start within min(a quarter of the time to its deadline,
 // `max_wait`) is refused with kResourceExhausted OVERLOADED and a retry delay;
@@ -26,14 +27,14 @@
 
 namespace argmesh {
 
-enum class WorkClass { kSearch = 0, kCompute = 1, kQuick = 2 };
-inline constexpr int kNumWorkClasses = 3;
+enum class WorkClass { kSearch = 0, kCompute = 1, kQuick = 2, kBulk = 3 };
+inline constexpr int kNumWorkClasses = 4;
 
 struct ComputePoolOptions {
   // 0: from the CPUs of this process: all for searches, one less (at least
-  // one) for computation, twice as many for quick work.
-  std::array<int, kNumWorkClasses> threads = {0, 0, 0};
-  std::array<int, kNumWorkClasses> max_queued = {64, 64, 512};
+  // one) for computation and for bulk, twice as many for quick work.
+  std::array<int, kNumWorkClasses> threads = {0, 0, 0, 0};
+  std::array<int, kNumWorkClasses> max_queued = {64, 64, 512, 512};
   absl::Duration max_wait = absl::Seconds(2);
 };
 

@@ -60,17 +60,17 @@ class AnsweringReactor : public Base {
 
  protected:
   // True, and `again` is run later, when the connection has not taken so much
-  // that no more is made for it. Until then the call gives up its place and
-  // counts with the `bytes` of its request among those that are slow.
+  // that no more is made for it. Until then the call gives up its place, and
+  // the `bytes` of its request count among those that wait.
   bool Postpone(int64_t bytes, const std::function<void()>& again) {
     PeerBudget& answers = this->environment().answers;
     if (answers.HasRoom(this->scope().peer())) return false;
     this->ReleasePlace();
     postponed_.Begin();
-    this->Hold(this->environment().requests, bytes);
+    this->Hold(this->environment().postponed, bytes);
     this->WhenRoom(answers, [this, again] {
       postponed_.End();
-      this->LetGo(this->environment().requests);
+      this->LetGo(this->environment().postponed);
       again();
     });
     return true;

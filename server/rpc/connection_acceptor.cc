@@ -305,7 +305,8 @@ void ConnectionAcceptor::Shun(const std::string& host, Clock::time_point now) {
   if (known == shunned_.end()) {
     shunned_[host] = {now + kFirstShunned, kFirstShunned};
   } else if (Shunned& shunned = known->second; shunned.end <= now) {
-    shunned.length = std::min<Clock::duration>(2 * shunned.length, kLastShunned);
+    shunned.length =
+        std::min<Clock::duration>(2 * shunned.length, kLastShunned);
     shunned.end = now + shunned.length;
   }
 }

@@ -89,7 +89,7 @@ class ConnectionAcceptor {
   std::atomic<int64_t> refused_{0};
   std::atomic<int64_t> cut_{0};
   std::mutex mutex_;
-  std::unordered_map<int, Connection> connections_;   // with mutex_
+  std::unordered_map<int, Connection> connections_;  // with mutex_
   std::map<std::string, Shunned> shunned_;           // hosts; with mutex_
   std::thread thread_;
 };

@@ -74,6 +74,7 @@ class GuardedReactor
     }
     environment().calls.Leave(this);
     environment().answers.Remove(this, scope_.peer());
+    environment().postponed.Remove(this, scope_.peer());
     environment().requests.Remove(this, scope_.peer());
     environment().connections.Leave(scope_.peer());
     self_.reset();  // may delete this

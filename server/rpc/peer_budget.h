@@ -35,9 +35,9 @@ class PeerBudget {
 
   // Whether what the connection holds is less than its room.
   bool HasRoom(const std::string& peer) const;
-  // Keeps `step` of `call`, which a Remove will run once there is room, one each
-  // time; it is dropped when the call is removed before. False, and nothing is
-  // kept, when there is room.
+  // Keeps `step` of `call`, which a Remove will run once there is room, one
+  // each time; it is dropped when the call is removed before. False, and
+  // nothing is kept, when there is room.
   bool AwaitRoom(LiveCall* call, const std::string& peer, Step step);
 
   int64_t bytes() const;

@@ -254,6 +254,12 @@ void RpcServer::Impl::WriteGauges(GaugeSheet& sheet) const {
   sheet.Counter("argmesh_unread_answers_cut_total",
                 "Answers that were cut because of the memory they took.",
                 static_cast<double>(environment_.answers.cut()));
+  sheet.Gauge("argmesh_postponed_request_bytes",
+              "Of requests that wait until their connection takes its answers.",
+              static_cast<double>(environment_.postponed.bytes()));
+  sheet.Counter("argmesh_postponed_requests_cut_total",
+                "Such requests that were refused because there were too many.",
+                static_cast<double>(environment_.postponed.cut()));
   sheet.Gauge("argmesh_slow_request_bytes",
               "Of requests that do not come whole, each as a full message.",
               static_cast<double>(environment_.requests.bytes()));

@@ -27,11 +27,11 @@ inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
 
 // Of all answers together that are made and not taken, and of those of one
-// connection before it gets more; of all requests that do not come whole
-// promptly, each counted as a full message, or wait for their connection to
-// take its answers.
+// connection before it gets more; of all requests that wait until it does; of
+// all that do not come whole promptly, each counted as a full message.
 inline constexpr int64_t kMaxUnreadBytes = 128 << 20;
-inline constexpr int64_t kMaxUnreadBytesOfAPeer = 4 << 20;
+inline constexpr int64_t kMaxUnreadBytesOfAPeer = 1 << 20;
+inline constexpr int64_t kMaxPostponedBytes = 64 << 20;
 inline constexpr int64_t kMaxSlowRequestBytes = 256 << 20;
 
 inline constexpr int kMaxPageSize = 1000;
@@ -90,6 +90,7 @@ struct ServiceEnvironment {
   CallRegistry calls;
   ConnectionCalls connections;
   PeerBudget answers{kMaxUnreadBytes, kMaxUnreadBytesOfAPeer};
+  PeerBudget postponed{kMaxPostponedBytes};
   PeerBudget requests{kMaxSlowRequestBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served
   const ImportSource* import_source = nullptr;  // none: IMPORT_NOT_ENABLED

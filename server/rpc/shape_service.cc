@@ -171,13 +171,14 @@ ShapeServiceImpl::ShapeServiceImpl(ServiceEnvironment& environment)
         CreateShape);
   Stream<UploadReactor>("ShapeService.UploadShape");
   Unary({"ShapeService.GetShape"}, GetShape);
-  Unary({"ShapeService.ListShapes"}, ListShapes);
+  Unary({"ShapeService.ListShapes", WorkClass::kBulk}, ListShapes);
   Unary({"ShapeService.UpdateShape"}, UpdateShape);
   Unary({"ShapeService.DeleteShape"}, DeleteShape);
-  Unary({"ShapeService.BatchGetShapes"}, BatchGetShapes);
-  Unary({"ShapeService.BatchDeleteShapes"}, BatchDeleteShapes);
+  Unary({"ShapeService.BatchGetShapes", WorkClass::kBulk}, BatchGetShapes);
+  Unary({"ShapeService.BatchDeleteShapes", WorkClass::kBulk},
+        BatchDeleteShapes);
   Stream<DownloadReactor>("ShapeService.DownloadMesh");
-  Unary({"ShapeService.GetShapeGraph"}, GetShapeGraph);
+  Unary({"ShapeService.GetShapeGraph", WorkClass::kBulk}, GetShapeGraph);
 }
 
 }  // namespace argmesh

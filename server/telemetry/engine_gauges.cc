@@ -11,7 +11,8 @@ constexpr size_t kMaxCollections = 1000;
 constexpr std::pair<WorkClass, const char*> kClasses[] = {
     {WorkClass::kSearch, "search"},
     {WorkClass::kCompute, "compute"},
-    {WorkClass::kQuick, "quick"}};
+    {WorkClass::kQuick, "quick"},
+    {WorkClass::kBulk, "bulk"}};
 
 void WritePools(Engine& engine, GaugeSheet& sheet) {
   for (const auto& [work_class, name] : kClasses) {
