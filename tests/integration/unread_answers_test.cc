@@ -1,0 +1,156 @@
+// Calls whose answers are not taken: no more is made for their connection
+// meanwhile, and nothing is lost to who takes them in the end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "server/telemetry/gauge_sheet.h"
+#include "tests/integration/server_fixture.h"
+
+namespace argmesh {
+namespace {
+
+constexpr int kCalls = 40;
+constexpr int kShapesOfACall = 70;
+constexpr char kPostponedBytes[] = "argmesh_postponed_request_bytes";
+
+// Many calls of one connection, each with an answer of a megabyte. Nothing of
+// the answers is read before they are asked for: the client's sockets are read
+// by who waits for its queue.
+class ManyCalls {
+ public:
+  explicit ManyCalls(TestServer& server) {
+    v1::BatchGetShapesRequest request;
+    request.set_parent("collections/parts");
+    for (int i = 0; i < kShapesOfACall; ++i) {
+      request.add_names("collections/parts/shapes/large");
+    }
+    for (int i = 0; i < kCalls; ++i) {
+      Call& call = *calls_.emplace_back(std::make_unique<Call>());
+      call.context.set_deadline(
+          absl::ToChronoTime(absl::Now() + absl::Seconds(60)));
+      call.reader =
+          server.shapes().AsyncBatchGetShapes(&call.context, request, &queue_);
+      call.reader->Finish(&call.response, &call.status, &call);
+    }
+  }
+  ~ManyCalls() { queue_.Shutdown(); }
+
+  // How each ended, once all have: "OK" or the reason.
+  std::vector<std::string> Take() {
+    void* tag = nullptr;
+    bool ok = false;
+    std::vector<std::string> ends;
+    for (int i = 0; i < kCalls && queue_.Next(&tag, &ok); ++i) {
+      const Call& call = *static_cast<Call*>(tag);
+      EXPECT_TRUE(!call.status.ok() ||
+                  call.response.shapes_size() == kShapesOfACall);
+      const ErrorOf error(call.status);
+      ends.push_back(call.status.ok() ? "OK"
+                                      : absl::StrCat(error.code, error.reason));
+    }
+    return ends;
+  }
+  void Cancel() {
+    for (const auto& call : calls_) call->context.TryCancel();
+  }
+
+ private:
+  struct Call {
+    grpc::ClientContext context;
+    v1::BatchGetShapesResponse response;
+    grpc::Status status;
+    std::unique_ptr<grpc::ClientAsyncResponseReader<v1::BatchGetShapesResponse>>
+        reader;
+  };
+
+  grpc::CompletionQueue queue_;
+  std::vector<std::unique_ptr<Call>> calls_;
+};
+
+class UnreadAnswersTest : public testing::Test {
+ protected:
+  void Start(absl::Duration idle_timeout) {
+    TestServerOptions options;
+    options.rpc.limits.stream_idle_timeout = idle_timeout;
+    server_ = std::make_unique<TestServer>(options);
+    server_->Start();
+    server_->MakeCollection("parts");
+    std::map<std::string, std::string> notes;
+    for (int i = 0; i < 15; ++i) {
+      notes[absl::StrCat("note", i)] = std::string(1000, 'n');
+    }
+    server_->AddShape("parts", "large", TorusOff(), notes);
+  }
+  double Gauge(const std::string& name) {
+    GaugeSheet sheet;
+    server_->rpc().WriteGauges(sheet);
+    return sheet.families().at(name).samples.at(0).value;
+  }
+  template <typename Condition>
+  void AwaitGauge(const std::string& name, const Condition& holds) {
+    const absl::Time end = absl::Now() + absl::Seconds(20);
+    while (!holds(Gauge(name)) && absl::Now() < end) {
+      absl::SleepFor(absl::Milliseconds(10));
+    }
+    EXPECT_TRUE(holds(Gauge(name))) << name << " is " << Gauge(name);
+  }
+
+  std::unique_ptr<TestServer> server_;
+};
+
+bool IsPositive(double value) { return value > 0; }
+bool IsZero(double value) { return value == 0; }
+
+TEST_F(UnreadAnswersTest, AreAllThereForWhoTakesThemLate) {
+  Start(absl::Seconds(60));
+  ManyCalls calls(*server_);
+  AwaitGauge(kPostponedBytes, IsPositive);
+  absl::SleepFor(absl::Milliseconds(300));
+  // One more than the room, or one for each thread.
+  EXPECT_LT(Gauge("argmesh_unread_answer_bytes"), kCalls / 2 * 1e6);
+  EXPECT_THAT(calls.Take(), testing::Each("OK"));
+  EXPECT_EQ(Gauge(kPostponedBytes), 0);
+}
+
+TEST_F(UnreadAnswersTest, EndTheCallsThatWaitForThemWhenNobodyTakesThem) {
+  Start(absl::Milliseconds(300));
+  ManyCalls calls(*server_);
+  AwaitGauge(kPostponedBytes, IsPositive);
+  AwaitGauge("argmesh_calls_in_flight", IsZero);
+  EXPECT_EQ(Gauge(kPostponedBytes), 0);
+  EXPECT_THAT(calls.Take(),
+              testing::Contains(absl::StrCat(
+                  grpc::StatusCode::RESOURCE_EXHAUSTED, "OVERLOADED")));
+}
+
+TEST_F(UnreadAnswersTest, KeepNoCallThatIsCancelled) {
+  Start(absl::Seconds(60));
+  ManyCalls calls(*server_);
+  AwaitGauge(kPostponedBytes, IsPositive);
+  calls.Cancel();
+  calls.Take();
+  AwaitGauge("argmesh_calls_in_flight", IsZero);
+  EXPECT_EQ(Gauge(kPostponedBytes), 0);
+  EXPECT_EQ(Gauge("argmesh_unread_answer_bytes"), 0);
+}
+
+TEST_F(UnreadAnswersTest, DoNotHoldUpADrain) {
+  Start(absl::Seconds(60));
+  ManyCalls calls(*server_);
+  AwaitGauge(kPostponedBytes, IsPositive);
+  server_->rpc().StopAdvertising();
+  std::thread reader([&calls] { calls.Take(); });
+  EXPECT_TRUE(server_->rpc().Shutdown(absl::Now() + absl::Seconds(20)));
+  reader.join();
+}
+
+}  // namespace
+}  // namespace argmesh
