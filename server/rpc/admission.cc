@@ -7,34 +7,62 @@
 #include "server/engine/error_reason.h"
 
 namespace argmesh {
+namespace {
+
+constexpr int kPlacesForOneOfOthers = 4;
+
+}  // namespace
+
+Admission::Ticket::Ticket(Ticket&& other) noexcept
+    : admission_(std::exchange(other.admission_, nullptr)),
+      peer_(std::move(other.peer_)) {}
 
 Admission::Ticket& Admission::Ticket::operator=(Ticket&& other) noexcept {
   if (this != &other) {
     Release();
-    used_ = std::exchange(other.used_, nullptr);
+    admission_ = std::exchange(other.admission_, nullptr);
+    peer_ = std::move(other.peer_);
   }
   return *this;
 }
 
 void Admission::Ticket::Release() {
-  if (used_ != nullptr) used_->fetch_sub(1);
-  used_ = nullptr;
+  if (admission_ != nullptr) std::exchange(admission_, nullptr)->Leave(peer_);
 }
 
 Admission::Admission(std::string what, int limit)
     : what_(std::move(what)), limit_(limit) {}
 
-absl::StatusOr<Admission::Ticket> Admission::Admit() {
-  // Taken first and given back when too many: never more than the limit hold
-  // a ticket.
+absl::StatusOr<Admission::Ticket> Admission::Admit(const std::string& peer) {
   const int limit = limit_;
-  if (used_.fetch_add(1) < limit) return Ticket(&used_);
-  used_.fetch_sub(1);
+  const int shared = limit - limit / kPlacesForOneOfOthers;
+  {
+    const std::lock_guard lock(mutex_);
+    if (used_ < (peers_.contains(peer) ? shared : limit)) {
+      ++used_;
+      ++peers_[peer];
+      return Ticket(*this, peer);
+    }
+  }
   return WithRetryDelay(
       MakeError(ErrorReason::kOverloaded,
-                absl::StrFormat("%d %s are in flight, the limit", limit, what_),
+                absl::StrFormat("too many %s are in flight: the limit is %d, "
+                                "of which %d are for connections without any",
+                                what_, limit, limit - shared),
                 {{"limit", absl::StrFormat("%d", limit)}, {"what", what_}}),
       absl::Seconds(1));
+}
+
+int Admission::used() const {
+  const std::lock_guard lock(mutex_);
+  return used_;
+}
+
+void Admission::Leave(const std::string& peer) {
+  const std::lock_guard lock(mutex_);
+  --used_;
+  const auto calls = peers_.find(peer);
+  if (--calls->second == 0) peers_.erase(calls);
 }
 
 }  // namespace argmesh

@@ -108,7 +108,7 @@ class GuardedReactor
   // Takes a place of its class until the call is finished, instead of the one
   // it has; ends the call and returns false when there is none.
   bool AdmitTo(Admission& admission) {
-    absl::StatusOr<Admission::Ticket> ticket = admission.Admit();
+    absl::StatusOr<Admission::Ticket> ticket = admission.Admit(scope_.peer());
     if (!ticket.ok()) {
       FinishOnce(ticket.status());
       return false;
