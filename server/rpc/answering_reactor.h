@@ -67,10 +67,10 @@ class AnsweringReactor : public Base {
     if (answers.HasRoom(this->scope().peer())) return false;
     this->ReleasePlace();
     postponed_.Begin();
-    this->Hold(this->environment().postponed, bytes);
+    this->holdings().Hold(this->environment().postponed, bytes);
     this->WhenRoom(answers, [this, again] {
       postponed_.End();
-      this->LetGo(this->environment().postponed);
+      this->holdings().LetGo(this->environment().postponed);
       again();
     });
     return true;
@@ -85,8 +85,8 @@ class AnsweringReactor : public Base {
       return;
     }
     answered_.Begin();
-    this->Hold(this->environment().answers,
-               static_cast<int64_t>(response_->ByteSizeLong()));
+    this->holdings().Hold(this->environment().answers,
+                          static_cast<int64_t>(response_->ByteSizeLong()));
     this->StartWriteAndFinish(response_.get(), grpc::WriteOptions(), status);
   }
 

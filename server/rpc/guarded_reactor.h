@@ -30,6 +30,7 @@
 #include "absl/status/status.h"
 #include "absl/time/clock.h"
 #include "server/engine/error_reason.h"
+#include "server/rpc/call_holdings.h"
 #include "server/rpc/call_scope.h"
 #include "server/rpc/status.h"
 
@@ -43,7 +44,9 @@ class GuardedReactor
  public:
   GuardedReactor(ServiceEnvironment& environment,
                  grpc::CallbackServerContext* context, const char* method)
-      : held_(environment.calls), scope_(environment, context, method) {}
+      : held_(environment.calls),
+        scope_(environment, context, method),
+        holdings_(this, scope_.peer()) {}
 
   // Called once, by StartReactor.
   void Enter() {
@@ -68,14 +71,8 @@ class GuardedReactor
   }
 
   void OnDone() final {
-    {
-      const std::lock_guard lock(done_mutex_);
-      done_ = true;
-    }
     environment().calls.Leave(this);
-    environment().answers.Remove(this, scope_.peer());
-    environment().postponed.Remove(this, scope_.peer());
-    environment().requests.Remove(this, scope_.peer());
+    holdings_.Close();
     environment().connections.Leave(scope_.peer());
     self_.reset();  // may delete this
   }
@@ -118,25 +115,16 @@ class GuardedReactor
     return true;
   }
 
-  // Counts `bytes` that the call holds for its peer, until it is done. Not with
-  // the scope's mutex.
-  void Hold(PeerBudget& budget, int64_t bytes) {
-    const std::lock_guard lock(done_mutex_);
-    if (!done_) budget.Hold(this, scope_.peer(), bytes);
-  }
-  void LetGo(PeerBudget& budget) { budget.Remove(this, scope_.peer()); }
+  // Not with the scope's mutex: the call may be cut.
+  CallHoldings& holdings() { return holdings_; }
 
   // Runs `step` once the peer's connection has room in `budget` for more; never
   // when the call is done before.
   void WhenRoom(PeerBudget& budget, const std::function<void()>& step) {
-    {
-      const std::lock_guard lock(done_mutex_);
-      const auto later = [this, self = this->shared_from_this(), step] {
-        Guard(step);
-      };
-      if (done_ || budget.AwaitRoom(this, scope_.peer(), later)) return;
-    }
-    Guard(step);
+    const auto later = [this, self = this->shared_from_this(), step] {
+      Guard(step);
+    };
+    if (!holdings_.AwaitRoom(budget, later)) Guard(step);
   }
 
   // Gives the place back before the call is finished.
@@ -220,12 +208,10 @@ class GuardedReactor
 
   const Held held_;
   CallScope scope_;
+  CallHoldings holdings_;
   Admission::Ticket ticket_;              // with the scope's mutex
   std::vector<PoolStep> waiting_;         // with the scope's mutex
   std::shared_ptr<GuardedReactor> self_;  // until OnDone
-  // A budget must not get a call that it has lost already.
-  std::mutex done_mutex_;
-  bool done_ = false;  // with done_mutex_
 };
 
 template <typename Reactor, typename... Args>

@@ -29,8 +29,8 @@ class RequestReactor : public ReadingReactor<Base, Request> {
       this->FinishOnce(StreamIdle(limit));
     } else if (silence > kPromptness && !slow_) {
       slow_ = true;
-      this->Hold(requests(), kMaxMessageBytes);
-      if (received_) this->LetGo(requests());
+      this->holdings().Hold(requests(), kMaxMessageBytes);
+      if (received_) this->holdings().LetGo(requests());
     }
   }
 
@@ -50,7 +50,7 @@ class RequestReactor : public ReadingReactor<Base, Request> {
 
   void Received(std::shared_ptr<Request> request) final {
     received_ = true;
-    if (slow_) this->LetGo(requests());
+    if (slow_) this->holdings().LetGo(requests());
     Requested(std::move(request));
   }
 

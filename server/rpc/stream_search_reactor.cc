@@ -58,7 +58,7 @@ void StreamSearchReactor::Prepare(const SearchAnswer& answer) {
   for (const v1::StreamSearchShapesResponse& message : messages_) {
     bytes += static_cast<int64_t>(message.ByteSizeLong());
   }
-  Hold(environment().answers, bytes);
+  holdings().Hold(environment().answers, bytes);
 }
 
 absl::StatusOr<bool> StreamSearchReactor::Continue(

@@ -58,7 +58,7 @@ class GaugeCollectable : public prometheus::Collectable {
 }  // namespace
 
 struct MetricsEndpoint::Parts {
-  std::shared_ptr<GaugeCollectable> gauges;
+  std::shared_ptr<prometheus::Collectable> gauges;
   std::shared_ptr<prometheus::Collectable> calls;
   std::unique_ptr<prometheus::Exposer> exposer;  // goes first
 };

@@ -43,7 +43,7 @@ class LateReactor final
     done_begun.get_future().wait();
     // Time for OnDone to do what it does before it waits for this tick.
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    Hold(environment().requests, 1);
+    holdings().Hold(environment().requests, 1);
   }
 
   std::promise<void> in_tick;
