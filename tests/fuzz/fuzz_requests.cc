@@ -51,7 +51,7 @@ std::ostream& NoLog() {
 std::unique_ptr<Engine> MakeEngine(std::unique_ptr<Catalog> catalog,
                                    std::unique_ptr<MeshStore> meshes) {
   EngineOptions options;
-  options.pool.threads = {1, 1, 1};
+  options.pool.threads = {1, 1, 1, 1};
   options.mesh_limits.max_vertices = 500;
   options.mesh_limits.max_faces = 1000;
   auto engine = Engine::Create(options, std::move(catalog), std::move(meshes));
