@@ -37,11 +37,12 @@ absl::StatusOr<Admission::Ticket> Admission::Admit(const std::string& peer) {
   const int limit = limit_;
   const int shared = limit - limit / kPlacesForOneOfOthers;
   {
+    std::string name = peer;
     const std::lock_guard lock(mutex_);
     if (used_ < (peers_.contains(peer) ? shared : limit)) {
+      ++peers_[peer];  // first: it may throw
       ++used_;
-      ++peers_[peer];
-      return Ticket(*this, peer);
+      return Ticket(*this, std::move(name));
     }
   }
   return WithRetryDelay(

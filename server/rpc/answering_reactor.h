@@ -2,20 +2,23 @@
 //
 // gRPC keeps the answer until the caller has taken it: who does not within the
 // stream idle timeout, or whose answers take the memory of others
-// (ServiceEnvironment::answers), is cut. While a connection has much to take,
-// no more answers are made for it.
+// (ServiceEnvironment::answers), is cut. A reactor that may Postpone makes no
+// answer while its connection has much to take.
 #ifndef ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
-#include "server/rpc/peer_budget.h"
+#include "server/rpc/answer_room.h"
 #include "server/rpc/peer_wait.h"
 #include "server/rpc/status.h"
 
@@ -36,7 +39,7 @@ class AnsweringReactor : public Base {
   void OnTick(absl::Time now) override {
     Base::OnTick(now);
     const absl::Duration limit = this->environment().stream_idle_timeout();
-    if (answered_.Lasted(now) > limit) Cut();
+    if (ended_.Lasted(now) > limit) Cut();
     if (!postponed_.pending()) return;
     absl::Status status = this->stop().Check();
     if (postponed_.Lasted(now) > limit) status.Update(TooManyUnreadAnswers());
@@ -49,7 +52,7 @@ class AnsweringReactor : public Base {
   }
 
   void OnOverBudget() final {
-    if (answered_.pending()) {
+    if (ended_.pending()) {
       Cut();
     } else if (postponed_.pending()) {
       this->FinishOnce(TooManyUnreadAnswers());
@@ -59,20 +62,32 @@ class AnsweringReactor : public Base {
   }
 
  protected:
-  // True, and `again` is run later, when the connection has not taken so much
-  // that no more is made for it. Until then the call gives up its place, and
-  // the `bytes` of its request count among those that wait.
-  bool Postpone(int64_t bytes, const std::function<void()>& again) {
-    PeerBudget& answers = this->environment().answers;
-    if (answers.HasRoom(this->scope().peer())) return false;
+  // In a step of the pool, before the answer is made. True when that has to
+  // wait because the connection has not taken those before: `again`, which
+  // alone owns the request of so many bytes, is run later. Until then the call
+  // gives up its place.
+  bool Postpone(int64_t bytes, std::function<void()> again) {
+    if (this->holdings().EnterRoom()) {
+      this->environment().answer_room.LetNextIn(this->scope().peer());
+      return false;
+    }
     this->ReleasePlace();
-    postponed_.Begin();
+    {
+      const std::lock_guard lock(this->scope().mutex());
+      if (!this->scope().finished()) again_ = std::move(again);
+    }
+    first_postponed_ = std::min(first_postponed_, absl::Now());
+    postponed_.Begin(first_postponed_);
+    this->scope().MarkWorkPostponed();
+    if (this->environment().calls.draining()) {
+      this->FinishOnce(ServerDraining());
+      return true;
+    }
     this->holdings().Hold(this->environment().postponed, bytes);
-    this->WhenRoom(answers, [this, again] {
-      postponed_.End();
-      this->holdings().LetGo(this->environment().postponed);
-      again();
-    });
+    const auto resume = [this, self = this->shared_from_this()] {
+      this->Guard([this] { Resume(); });
+    };
+    if (this->holdings().EnterRoomOrWait(resume)) resume();
     return true;
   }
 
@@ -80,13 +95,15 @@ class AnsweringReactor : public Base {
   Response& response() { return *response_; }
 
   void End(const grpc::Status& status) final {
+    TakeAgain();
+    ended_.Begin();
     if (!status.ok()) {
       this->Finish(status);
       return;
     }
-    answered_.Begin();
-    this->holdings().Hold(this->environment().answers,
-                          static_cast<int64_t>(response_->ByteSizeLong()));
+    const auto bytes = static_cast<int64_t>(response_->ByteSizeLong());
+    this->holdings().HoldRoom(bytes);
+    this->holdings().Hold(this->environment().answers, bytes);
     this->StartWriteAndFinish(response_.get(), grpc::WriteOptions(), status);
   }
 
@@ -95,9 +112,27 @@ class AnsweringReactor : public Base {
   // gets through.
   void Cut() { this->scope().context()->TryCancel(); }
 
+  std::function<void()> TakeAgain() {
+    const std::lock_guard lock(this->scope().mutex());
+    return std::exchange(again_, nullptr);
+  }
+
+  void Resume() {
+    const std::function<void()> again = TakeAgain();
+    if (!again) {  // ended meanwhile
+      this->environment().answer_room.LetNextIn(this->scope().peer());
+      return;
+    }
+    postponed_.End();
+    this->holdings().LetGo(this->environment().postponed);
+    again();
+  }
+
   const std::unique_ptr<Response> response_;
-  PeerWait answered_;
-  PeerWait postponed_;
+  PeerWait ended_;      // since its end was handed to gRPC
+  PeerWait postponed_;  // while it is
+  absl::Time first_postponed_ = absl::InfiniteFuture();  // of its steps
+  std::function<void()> again_;  // with the scope's mutex
 };
 
 }  // namespace argmesh

@@ -1,5 +1,6 @@
-// What one call holds in the server's budgets (peer_budget.h), until it is
-// done: a budget must not get a call that it has lost already. Thread-safe.
+// What one call holds in the server's budgets and in its connection's room,
+// until it is done: none of them must get a call that it has lost already.
+// Thread-safe.
 #ifndef ARGMESH_SERVER_RPC_CALL_HOLDINGS_H_
 #define ARGMESH_SERVER_RPC_CALL_HOLDINGS_H_
 
@@ -8,22 +9,27 @@
 #include <set>
 #include <string>
 
+#include "server/rpc/answer_room.h"
 #include "server/rpc/peer_budget.h"
 
 namespace argmesh {
 
 class CallHoldings {
  public:
-  // `call` of the connection `peer`; both must outlive this.
-  CallHoldings(LiveCall* call, const std::string& peer)
-      : call_(call), peer_(peer) {}
+  // `call` of the connection `peer`. All must outlive this.
+  CallHoldings(LiveCall* call, const std::string& peer, AnswerRoom& room)
+      : call_(call), peer_(peer), room_(room) {}
 
-  // As PeerBudget does, and nothing once the call is done.
+  // Counts `bytes` in `budget` instead of what it counts there; the call may be
+  // cut meanwhile. Nothing once the call is done.
   void Hold(PeerBudget& budget, int64_t bytes);
-  void LetGo(PeerBudget& budget) { budget.Remove(call_, peer_); }
-  // False where there is room; true, and `step` is dropped, for a call that is
-  // done.
-  bool AwaitRoom(PeerBudget& budget, PeerBudget::Step step);
+  void LetGo(PeerBudget& budget) { budget.Remove(call_); }
+
+  // Of AnswerRoom. Once the call is done nothing is kept, and it is never its
+  // turn.
+  bool EnterRoom() { return room_.Enter(call_, peer_); }
+  bool EnterRoomOrWait(AnswerRoom::Step again);
+  void HoldRoom(int64_t bytes);
 
   // The call is done.
   void Close();
@@ -31,8 +37,10 @@ class CallHoldings {
  private:
   LiveCall* const call_;
   const std::string& peer_;
+  AnswerRoom& room_;
   std::mutex mutex_;
   bool closed_ = false;            // with mutex_
+  bool in_room_ = false;           // with mutex_
   std::set<PeerBudget*> budgets_;  // with mutex_
 };
 

@@ -107,6 +107,11 @@ void CallScope::MarkWorkBegin() {
   }
 }
 
+void CallScope::MarkWorkPostponed() {
+  const std::lock_guard lock(mutex_);
+  record_.work_begin = absl::InfiniteFuture();
+}
+
 bool CallScope::MarkFinished() {
   const std::lock_guard lock(mutex_);
   return !std::exchange(finished_, true);

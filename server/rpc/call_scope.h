@@ -59,6 +59,8 @@ class CallScope {
 
   // The call, or a part of it, has its turn on a pool. The first time counts.
   void MarkWorkBegin();
+  // It has to wait for its turn again, which is the one that counts.
+  void MarkWorkPostponed();
 
   // What the client sees of the call's end, and of an item of a stream.
   // Telemetry is told.

@@ -301,14 +301,13 @@ void ConnectionAcceptor::Cut(const std::string& peer) {
 }
 
 void ConnectionAcceptor::Shun(const std::string& host, Clock::time_point now) {
-  const auto known = shunned_.find(host);
-  if (known == shunned_.end()) {
-    shunned_[host] = {now + kFirstShunned, kFirstShunned};
-  } else if (Shunned& shunned = known->second; shunned.end <= now) {
-    shunned.length =
-        std::min<Clock::duration>(2 * shunned.length, kLastShunned);
-    shunned.end = now + shunned.length;
-  }
+  Shunned& shunned = shunned_[host];
+  if (now < shunned.end) return;
+  const bool is_soon = now < shunned.end + kLastShunned;
+  shunned.length =
+      is_soon ? std::min<Clock::duration>(2 * shunned.length, kLastShunned)
+              : kFirstShunned;
+  shunned.end = now + shunned.length;
 }
 
 }  // namespace argmesh

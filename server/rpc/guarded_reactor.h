@@ -46,7 +46,7 @@ class GuardedReactor
                  grpc::CallbackServerContext* context, const char* method)
       : held_(environment.calls),
         scope_(environment, context, method),
-        holdings_(this, scope_.peer()) {}
+        holdings_(this, scope_.peer(), environment.answer_room) {}
 
   // Called once, by StartReactor.
   void Enter() {
@@ -71,8 +71,8 @@ class GuardedReactor
   }
 
   void OnDone() final {
-    environment().calls.Leave(this);
     holdings_.Close();
+    environment().calls.Leave(this);
     environment().connections.Leave(scope_.peer());
     self_.reset();  // may delete this
   }
@@ -117,15 +117,6 @@ class GuardedReactor
 
   // Not with the scope's mutex: the call may be cut.
   CallHoldings& holdings() { return holdings_; }
-
-  // Runs `step` once the peer's connection has room in `budget` for more; never
-  // when the call is done before.
-  void WhenRoom(PeerBudget& budget, const std::function<void()>& step) {
-    const auto later = [this, self = this->shared_from_this(), step] {
-      Guard(step);
-    };
-    if (!holdings_.AwaitRoom(budget, later)) Guard(step);
-  }
 
   // Gives the place back before the call is finished.
   void ReleasePlace() {

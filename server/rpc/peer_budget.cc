@@ -1,7 +1,6 @@
 #include "server/rpc/peer_budget.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace argmesh {
 
@@ -24,31 +23,10 @@ void PeerBudget::Hold(LiveCall* call, const std::string& peer, int64_t bytes) {
   }
 }
 
-void PeerBudget::Remove(LiveCall* call, const std::string& peer) {
-  Step next;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto holding = holdings_.find(call);
-    if (holding != holdings_.end()) Forget(holding);
-    if (const auto waiting = waiting_.find(peer); waiting != waiting_.end()) {
-      std::erase_if(waiting->second,
-                    [call](const Waiting& w) { return w.call == call; });
-      next = TakeNext(peer);
-    }
-  }
-  if (next) next();
-}
-
-bool PeerBudget::HasRoom(const std::string& peer) const {
+void PeerBudget::Remove(LiveCall* call) {
   const std::lock_guard lock(mutex_);
-  return HasRoomLocked(peer);
-}
-
-bool PeerBudget::AwaitRoom(LiveCall* call, const std::string& peer, Step step) {
-  const std::lock_guard lock(mutex_);
-  if (HasRoomLocked(peer)) return false;
-  waiting_[peer].push_back({call, std::move(step)});
-  return true;
+  const auto holding = holdings_.find(call);
+  if (holding != holdings_.end()) Forget(holding);
 }
 
 int64_t PeerBudget::bytes() const {
@@ -59,23 +37,6 @@ int64_t PeerBudget::bytes() const {
 int64_t PeerBudget::cut() const {
   const std::lock_guard lock(mutex_);
   return cut_;
-}
-
-bool PeerBudget::HasRoomLocked(const std::string& peer) const {
-  const auto connection = connections_.find(peer);
-  return connection == connections_.end() || connection->second.bytes < room_;
-}
-
-PeerBudget::Step PeerBudget::TakeNext(const std::string& peer) {
-  const auto waiting = waiting_.find(peer);
-  std::deque<Waiting>& steps = waiting->second;
-  Step next;
-  if (!steps.empty() && HasRoomLocked(peer)) {
-    next = std::move(steps.front().step);
-    steps.pop_front();
-  }
-  if (steps.empty()) waiting_.erase(waiting);
-  return next;
 }
 
 LiveCall* PeerBudget::OldestOfTheLargest() const {

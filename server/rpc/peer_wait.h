@@ -13,7 +13,9 @@ namespace argmesh {
 
 class PeerWait {
  public:
-  void Begin() { since_ms_ = absl::ToUnixMillis(absl::Now()); }
+  void Begin(absl::Time since = absl::Now()) {
+    since_ms_ = absl::ToUnixMillis(since);
+  }
   void End() { since_ms_ = kNone; }
 
   bool pending() const { return since_ms_ != kNone; }

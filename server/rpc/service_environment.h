@@ -14,6 +14,7 @@
 #include "server/engine/store_admin.h"
 #include "server/rpc/access_control.h"
 #include "server/rpc/admission.h"
+#include "server/rpc/answer_room.h"
 #include "server/rpc/call_registry.h"
 #include "server/rpc/connection_calls.h"
 #include "server/rpc/operation_registry.h"
@@ -26,9 +27,9 @@ namespace argmesh {
 inline constexpr int kMaxMessageBytes = 4 << 20;
 inline constexpr int64_t kMaxAnswerBytes = 3 << 20;
 
-// Of all answers together that are made and not taken, and of those of one
-// connection before it gets more; of all requests that wait until it does; of
-// all that do not come whole promptly, each counted as a full message.
+// Of all answers together that are made and not taken, and of one connection's
+// before it gets more; of all requests that wait until it does; of all that do
+// not come whole promptly, each counted as a full message.
 inline constexpr int64_t kMaxUnreadBytes = 128 << 20;
 inline constexpr int64_t kMaxUnreadBytesOfAPeer = 1 << 20;
 inline constexpr int64_t kMaxPostponedBytes = 64 << 20;
@@ -89,7 +90,8 @@ struct ServiceEnvironment {
   Admission ingests;
   CallRegistry calls;
   ConnectionCalls connections;
-  PeerBudget answers{kMaxUnreadBytes, kMaxUnreadBytesOfAPeer};
+  AnswerRoom answer_room{kMaxUnreadBytesOfAPeer};
+  PeerBudget answers{kMaxUnreadBytes};
   PeerBudget postponed{kMaxPostponedBytes};
   PeerBudget requests{kMaxSlowRequestBytes};
   StoreAdmin* store_admin = nullptr;            // none: its rpcs are not served

@@ -17,16 +17,25 @@ void UnaryReactor::Requested(
   const UnaryPlan& plan = method_.plan;
   if (plan.admission != nullptr && !AdmitTo(*plan.admission)) return;
   Run(plan.work_class, [this, request = std::move(request)]() mutable {
-    if (Postpone(static_cast<int64_t>(request->ByteSizeLong()),
-                 [this, request] { Requested(request); })) {
-      return;
-    }
+    const auto bytes = static_cast<int64_t>(request->SpaceUsedLong());
+    if (Postpone(bytes, [this, request] { RequestedAgain(request); })) return;
     const absl::Status status = method_.body(
         {environment(), stop(), scope().caller()}, *request, &response());
     // Before the answer, which waits until the caller takes it.
     request.reset();
     FinishOnce(status);
   });
+}
+
+void UnaryReactor::RequestedAgain(
+    const std::shared_ptr<const UnaryMethod::Message>& request) {
+  // The caller's key may have been revoked while it waited.
+  if (const absl::Status status = scope().AuthorizeMessage(*request);
+      status.ok()) {
+    Requested(request);
+  } else {
+    FinishOnce(status);
+  }
 }
 
 }  // namespace argmesh

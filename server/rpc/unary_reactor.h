@@ -50,6 +50,9 @@ class UnaryReactor final
   void Requested(std::shared_ptr<const UnaryMethod::Message> request) override;
 
  private:
+  void RequestedAgain(
+      const std::shared_ptr<const UnaryMethod::Message>& request);
+
   const UnaryMethod& method_;
 };
 

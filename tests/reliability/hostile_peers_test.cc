@@ -413,6 +413,7 @@ TEST_F(HostilePeersTest, FloodOfPings) {
           if (!reads) continue;
           peer.Read(seconds(10),
                     [&] { return peer.Count(Http2Frame::kPing) >= sent; });
+          EXPECT_GE(peer.Count(Http2Frame::kPing), sent) << "all are answered";
         }
         answered += peer.Count(Http2Frame::kPing);
       });
@@ -420,7 +421,6 @@ TEST_F(HostilePeersTest, FloodOfPings) {
     for (std::thread& peer : peers) peer.join();
     std::printf("%lld pings answered\n",
                 static_cast<long long>(answered.load()));
-    EXPECT_GT(answered.load(), 0);
   });
 }
 
@@ -428,7 +428,7 @@ TEST_F(HostilePeersTest, AnswersThatNobodyTakes) {
   constexpr int kPeers = 10;
   const std::string request = LargeAnswerRequest();
   Endure("10 peers that take none of their 1,280 answers of 1.2 MB",
-         1024 * kMebibyte, [&] {
+         96 * kMebibyte, [&] {
            Repeat([&] {
              std::vector<Http2Peer> peers;
              for (int i = 0; i < kPeers; ++i) {
@@ -451,7 +451,7 @@ TEST_F(HostilePeersTest, AnswersThatNobodyTakes) {
 TEST_F(HostilePeersTest, AnswersOnASocketThatNobodyReads) {
   constexpr int kPeers = 10;
   const std::string request = LargeAnswerRequest();
-  Endure("10 peers that never read, 1,280 answers of 1.2 MB", 1024 * kMebibyte,
+  Endure("10 peers that never read, 1,280 answers of 1.2 MB", 96 * kMebibyte,
          [&] {
            Repeat([&] {
              std::vector<Http2Peer> peers;

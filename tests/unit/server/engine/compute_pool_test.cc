@@ -23,7 +23,7 @@ using testing::UnorderedElementsAre;
 
 ComputePoolOptions Threads(int threads, int max_queued) {
   ComputePoolOptions options;
-  options.threads = {threads, threads, threads};
+  options.threads = {threads, threads, threads, threads};
   options.max_queued = {max_queued, max_queued, max_queued};
   return options;
 }

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 
 class GalleryTest : public ::testing::Test {
  protected:
-  GalleryTest() : pool_({.threads = {2, 1, 1}}), gallery_(catalog_, pool_) {}
+  GalleryTest() : pool_({.threads = {2, 1, 1, 1}}), gallery_(catalog_, pool_) {}
 
   CollectionRecord Insert(const std::string& id, int shapes) {
     const CollectionRecord record = SampleCollection(id);
@@ -77,7 +77,7 @@ TEST(GalleryOfATornCatalog, ServesTheCollectionsThatItCanLoad) {
     ASSERT_THAT(catalog.PutShape(SamplePut(record, "s", 1)), IsOk());
     if (record.id == "cups") catalog.torn_uid = record.uid;
   }
-  ComputePool pool({.threads = {1, 1, 1}});
+  ComputePool pool({.threads = {1, 1, 1, 1}});
   Gallery gallery(catalog, pool);
   gallery.Load({});
   EXPECT_EQ(gallery.state(), IndexState::kServing);
@@ -99,7 +99,7 @@ TEST(GalleryOfATornCatalog, LoadsACollectionOnceItCanBeRead) {
     ASSERT_THAT(catalog.PutShape(SamplePut(cups, id, 1)), IsOk());
   }
   catalog.torn_uid = cups.uid;
-  ComputePool pool({.threads = {1, 1, 1}});
+  ComputePool pool({.threads = {1, 1, 1, 1}});
   Gallery gallery(catalog, pool);
   gallery.Load({});
   EXPECT_FALSE(gallery.LoadMissing({}));

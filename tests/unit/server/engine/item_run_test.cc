@@ -24,7 +24,7 @@ std::vector<std::string> Items(int count) {
 
 ComputePoolOptions Threads(int compute) {
   ComputePoolOptions options;
-  options.threads = {1, compute, 1};
+  options.threads = {1, compute, 1, 1};
   return options;
 }
 

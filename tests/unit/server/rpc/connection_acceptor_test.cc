@@ -7,10 +7,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 
@@ -20,10 +22,21 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-// Takes connections as gRPC does, and closes none.
+// Takes connections as gRPC does, and keeps them.
 class Taker final : public ConnectionAcceptor::Sink {
  public:
-  void HandleNewConnection(NewConnectionParameters*) override {}
+  explicit Taker(std::atomic<int>& taken) : taken_(taken) {}
+  ~Taker() override {
+    for (const int descriptor : descriptors_) close(descriptor);
+  }
+  void HandleNewConnection(NewConnectionParameters* connection) override {
+    descriptors_.push_back(connection->fd);
+    ++taken_;
+  }
+
+ private:
+  std::atomic<int>& taken_;
+  std::vector<int> descriptors_;
 };
 
 class Peer {
@@ -46,8 +59,8 @@ class Peer {
     getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
     return absl::StrCat("ipv4:127.0.0.1:", ntohs(own.sin_port));
   }
-  // Whether the server has closed it, which may take some time.
-  bool IsCut(milliseconds patience) const {
+  // Whether the server has closed it, or does within `patience`.
+  bool IsCut(milliseconds patience = milliseconds(0)) const {
     pollfd waiting = {socket_, POLLIN, 0};
     return poll(&waiting, 1, static_cast<int>(patience.count())) > 0;
   }
@@ -63,14 +76,24 @@ class ConnectionAcceptorTest : public testing::Test {
         acceptor_.Listen({"127.0.0.1", 0, /*loopback=*/true});
     ASSERT_TRUE(port.ok()) << port.status();
     port_ = *port;
-    acceptor_.Serve(std::make_unique<Taker>());
+    acceptor_.Serve(std::make_unique<Taker>(taken_));
   }
 
-  bool TakesPeer() const { return !Peer(port_).IsCut(milliseconds(100)); }
+  // Whether the peer is taken, not closed at once.
+  bool Takes(const Peer& peer, int taken_before) const {
+    while (taken_ == taken_before && !peer.IsCut(milliseconds(1))) {
+    }
+    return taken_ > taken_before;
+  }
+  bool TakesPeer() const {
+    const int before = taken_;
+    return Takes(Peer(port_), before);
+  }
   // Cuts a connection that was taken.
   void CutOne() {
+    const int before = taken_;
     const Peer peer(port_);
-    ASSERT_FALSE(peer.IsCut(milliseconds(100)));
+    ASSERT_TRUE(Takes(peer, before));
     acceptor_.Cut(peer.name());
     EXPECT_TRUE(peer.IsCut(milliseconds(5000)));
   }
@@ -79,6 +102,7 @@ class ConnectionAcceptorTest : public testing::Test {
     return Clock::now() - begin < time;
   }
 
+  std::atomic<int> taken_ = 0;
   ConnectionAcceptor acceptor_;
   int port_ = 0;
 };

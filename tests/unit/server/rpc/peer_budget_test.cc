@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 namespace argmesh {
 namespace {
 
@@ -19,9 +17,9 @@ TEST(PeerBudget, CutsNothingWithinTheBound) {
   budget.Hold(&a, "peer", 60);
   budget.Hold(&b, "peer", 40);
   EXPECT_EQ(budget.bytes(), 100);
-  budget.Remove(&a, "peer");
+  budget.Remove(&a);
   EXPECT_EQ(budget.bytes(), 40);
-  budget.Remove(&b, "peer");
+  budget.Remove(&b);
   EXPECT_EQ(budget.bytes(), 0);
   EXPECT_EQ(a.cuts + b.cuts, 0);
 }
@@ -53,9 +51,9 @@ TEST(PeerBudget, CutsAsManyAsItTakesAndEachOnce) {
   EXPECT_EQ(small[1].cuts, 0);
   EXPECT_EQ(large.cuts, 1);
   EXPECT_EQ(budget.bytes(), 90);
-  for (CutCall& call : small) budget.Remove(&call, "peer");
-  budget.Remove(&large, "peer");
-  budget.Remove(&large, "peer");
+  for (CutCall& call : small) budget.Remove(&call);
+  budget.Remove(&large);
+  budget.Remove(&large);
   EXPECT_EQ(budget.bytes(), 0);
 }
 
@@ -71,7 +69,7 @@ TEST(PeerBudget, ForgetsACallThatIsDone) {
   PeerBudget budget(100);
   CutCall done;
   budget.Hold(&done, "peer", 90);
-  budget.Remove(&done, "peer");
+  budget.Remove(&done);
   CutCall next;
   budget.Hold(&next, "peer", 90);
   EXPECT_EQ(done.cuts + next.cuts, 0);
@@ -84,44 +82,6 @@ TEST(PeerBudget, CountsWhatACallHoldsOnce) {
   budget.Hold(&call, "peer", 70);
   EXPECT_EQ(budget.bytes(), 70);
   EXPECT_EQ(call.cuts, 0);
-}
-
-TEST(PeerBudget, RunsWhatWaitsForRoomOneAtATime) {
-  PeerBudget budget(100, 20);
-  CutCall full;
-  CutCall first;
-  CutCall second;
-  std::string ran;
-  budget.Hold(&full, "peer", 20);
-  EXPECT_FALSE(budget.HasRoom("peer"));
-  EXPECT_TRUE(budget.AwaitRoom(&first, "peer", [&] { ran += "first "; }));
-  EXPECT_TRUE(budget.AwaitRoom(&second, "peer", [&] { ran += "second "; }));
-  CutCall other;
-  EXPECT_TRUE(budget.HasRoom("other"));
-  EXPECT_FALSE(budget.AwaitRoom(&other, "other", [&] { ran += "other "; }));
-  budget.Remove(&other, "other");
-  EXPECT_EQ(ran, "");
-  budget.Remove(&full, "peer");
-  EXPECT_EQ(ran, "first ");
-  // It held nothing: there still is room.
-  budget.Remove(&first, "peer");
-  EXPECT_EQ(ran, "first second ");
-}
-
-TEST(PeerBudget, RunsNothingWithoutRoomOrForACallThatIsDone) {
-  PeerBudget budget(100, 20);
-  CutCall holders[2];
-  CutCall gone;
-  CutCall waits;
-  std::string ran;
-  for (CutCall& holder : holders) budget.Hold(&holder, "peer", 20);
-  EXPECT_TRUE(budget.AwaitRoom(&gone, "peer", [&] { ran += "gone "; }));
-  EXPECT_TRUE(budget.AwaitRoom(&waits, "peer", [&] { ran += "waits "; }));
-  budget.Remove(&gone, "peer");
-  budget.Remove(&holders[0], "peer");
-  EXPECT_EQ(ran, "");
-  budget.Remove(&holders[1], "peer");
-  EXPECT_EQ(ran, "waits ");
 }
 
 }  // namespace
