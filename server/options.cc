@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <istream>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
@@ -116,11 +119,27 @@ void AddActions(CLI::App& app, ServerOptions& options) {
       ->configurable(false);
 }
 
+// A file in which every key has a value. CLI11 takes `listen=[,` for a key
+// without any, and then reads one.
+class FileWithValues final : public CLI::ConfigTOML {
+ public:
+  std::vector<CLI::ConfigItem> from_config(std::istream& file) const override {
+    std::vector<CLI::ConfigItem> items = CLI::ConfigTOML::from_config(file);
+    for (const CLI::ConfigItem& item : items) {
+      if (item.inputs.empty()) {
+        throw CLI::ConfigError("the file gives no value to " + item.fullname());
+      }
+    }
+    return items;
+  }
+};
+
 void Describe(CLI::App& app, std::string_view version) {
   app.option_defaults()->always_capture_default();
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.set_version_flag("--version", "argmeshd " + std::string(version));
   app.set_config("--config", "", "File with options, TOML or INI");
+  app.config_formatter(std::make_shared<FileWithValues>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.footer(
       "Every option may be given in the environment (--drain-delay is "

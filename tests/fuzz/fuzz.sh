@@ -21,8 +21,10 @@ for name in "${names[@]}"; do
   log=$(mktemp)
   outcome="no finding"
   start=$SECONDS
+  # What leaked is looked for at the end: after one input a server's threads may
+  # have what they hold in nobody's sight.
   "$programs/$name" -runs="$executions" -timeout=60 -rss_limit_mb=4096 \
-    -max_len=20000 -print_final_stats=1 \
+    -detect_leaks=0 -max_len=20000 -print_final_stats=1 \
     -artifact_prefix="$programs/../findings/$name-" "$corpus" >"$log" 2>&1 || {
     outcome="BROKEN, see $log"
     found=1

@@ -101,6 +101,12 @@ TEST_F(ServerOptionsTest, NamesTheKeyOfTheFileThatIsNoOption) {
   EXPECT_THAT(std::string(parsed.status().message()), HasSubstr("thraeds"));
 }
 
+TEST_F(ServerOptionsTest, NamesTheKeyOfTheFileThatHasNoValue) {
+  const auto parsed = Parse({WriteFile("threads=1\n\"listen\"=[,")});
+  ASSERT_FALSE(parsed.ok());
+  EXPECT_THAT(std::string(parsed.status().message()), HasSubstr("listen"));
+}
+
 TEST_F(ServerOptionsTest, RefusesValuesOutsideTheirRange) {
   for (const auto& arguments :
        std::vector<std::vector<std::string>>{{"--threads", "-1"},
