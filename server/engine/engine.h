@@ -1,8 +1,8 @@
 // The shape-retrieval engine: everything the service does, without gRPC.
 //
 // Thread-safe. Every call blocks until it is done and is meant to run on
-// pool() (AddShape as kCompute, searches and comparisons as kSearch, the rest
-// as kQuick). A StopToken is checked at least every 50 ms of work; a write that
+// pool() (AddShape as kCompute, searches and comparisons as kSearch, pages,
+// batches and graphs as kBulk, the rest as kQuick). A StopToken is checked at least every 50 ms of work; a write that
 // has reached the catalog completes.
 //
 // Repeats  equal state and query give bit-equal answers, whatever the threads.

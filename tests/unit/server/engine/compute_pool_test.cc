@@ -24,7 +24,7 @@ using testing::UnorderedElementsAre;
 ComputePoolOptions Threads(int threads, int max_queued) {
   ComputePoolOptions options;
   options.threads = {threads, threads, threads, threads};
-  options.max_queued = {max_queued, max_queued, max_queued};
+  options.max_queued = {max_queued, max_queued, max_queued, max_queued};
   return options;
 }
 
@@ -199,12 +199,14 @@ TEST(ComputePool, RefusesWhatWaitedAQuarterOfItsTime) {
 
 TEST(ComputePool, KeepsItsClassesApart) {
   ComputePool pool(Threads(1, 0));
-  Blocker blocker(pool, WorkClass::kCompute);
+  Blocker compute(pool, WorkClass::kCompute);
+  Blocker bulk(pool, WorkClass::kBulk);
   EXPECT_THAT(SubmitAndWait(pool, WorkClass::kSearch, absl::InfiniteFuture()),
               IsOk());
   EXPECT_THAT(SubmitAndWait(pool, WorkClass::kQuick, absl::InfiniteFuture()),
               IsOk());
-  blocker.Release();
+  compute.Release();
+  bulk.Release();
 }
 
 TEST(ComputePool, VisitsEveryIndexOfALoopOnce) {

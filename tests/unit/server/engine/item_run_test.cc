@@ -109,7 +109,7 @@ TEST(RunItems, IsCancelledByAnItemThatWasStoppedAndCountsNoFailure) {
 
 TEST(RunItems, WaitsForAPoolThatIsOverloaded) {
   ComputePoolOptions options = Threads(1);
-  options.max_queued = {1, 1, 1};
+  options.max_queued = {1, 1, 1, 1};
   options.max_wait = absl::Milliseconds(1);
   ComputePool pool(options);
   // The only thread is held until an item has been refused.
