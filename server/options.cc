@@ -198,7 +198,7 @@ std::string Quoted(const std::string& text) {
 
 // No file can have them in a text: it would be read as another one.
 bool IsUnreadable(char c) {
-  return c == '"' || c == '#' ||
+  return c == '"' || c == '#' || c == '\\' ||
          absl::ascii_iscntrl(static_cast<unsigned char>(c));
 }
 
@@ -219,7 +219,7 @@ absl::Status CheckTexts(const ServerOptions& options) {
     if (std::any_of(text->begin(), text->end(), IsUnreadable)) {
       return absl::InvalidArgumentError(
           absl::StrCat("--", name,
-                       " has a control character, a \" or a #, which the "
+                       " has a control character, a \", # or \\, which the "
                        "configuration file cannot have in a text"));
     }
   }
