@@ -137,7 +137,8 @@ TEST_F(ServerOptionsTest, NamesTheVariableThatIsWrong) {
 TEST_F(ServerOptionsTest, RefusesATextThatNoFileCanHave) {
   // As CLI11 reads a text with a # in it.
   EXPECT_FALSE(Parse({WriteFile("data=\"/srv/parts#2\"\n")}).ok());
-  for (const char* text : {"a\nb", "a\x7f", "\"", "/srv/parts#2", "/srv/parts\\"}) {
+  for (const char* text :
+       {"a\nb", "a\x7f", "\"", "/srv/parts#2", "/srv/parts\\"}) {
     const auto parsed = Parse({"--port-file", text});
     ASSERT_FALSE(parsed.ok()) << text;
     EXPECT_THAT(std::string(parsed.status().message()),
