@@ -198,7 +198,7 @@ std::string Quoted(const std::string& text) {
 
 // No file can have them in a text: it would be read as another one.
 bool IsUnreadable(char c) {
-  return c == '"' || c == '#' || c == '\\' ||
+  return c == '"' || c == '#' ||
          absl::ascii_iscntrl(static_cast<unsigned char>(c));
 }
 
@@ -216,11 +216,13 @@ absl::Status CheckTexts(const ServerOptions& options) {
         std::pair("audit-log", &options.audit_log),
         std::pair("trace-log", &options.trace_log),
         std::pair("metrics-listen", &options.metrics_listen)}) {
-    if (std::any_of(text->begin(), text->end(), IsUnreadable)) {
+    if (std::any_of(text->begin(), text->end(), IsUnreadable) ||
+        text->ends_with('\\')) {
       return absl::InvalidArgumentError(
           absl::StrCat("--", name,
-                       " has a control character, a \", # or \\, which the "
-                       "configuration file cannot have in a text"));
+                       " has a control character, a \", a # or a \\ at its "
+                       "end, which the configuration file cannot have in a "
+                       "text"));
     }
   }
   return absl::OkStatus();

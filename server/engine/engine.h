@@ -2,8 +2,8 @@
 //
 // Thread-safe. Every call blocks until it is done and is meant to run on
 // pool() (AddShape as kCompute, searches and comparisons as kSearch, pages,
-// batches and graphs as kBulk, the rest as kQuick). A StopToken is checked at least every 50 ms of work; a write that
-// has reached the catalog completes.
+// batches and graphs as kBulk, the rest as kQuick). A StopToken is checked at
+// least every 50 ms of work; a write that has reached the catalog completes.
 //
 // Repeats  equal state and query give bit-equal answers, whatever the threads.
 // Fails    with MakeError's statuses; the reasons are named at each function,
