@@ -56,10 +56,7 @@ EngineOptions EngineOptionsOf(const ServerOptions& options) {
   EngineOptions engine;
   engine.mesh_limits.max_bytes = options.max_mesh_bytes;
   engine.mesh_memory = options.mesh_memory;
-  if (options.threads > 0) {
-    const int most = std::max(1, options.threads - 1);
-    engine.pool.threads = {options.threads, most, 2 * options.threads, most};
-  }
+  if (options.threads > 0) engine.pool.threads = ThreadsFor(options.threads);
   return engine;
 }
 

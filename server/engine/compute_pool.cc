@@ -117,9 +117,7 @@ class ComputePool::State {
 
 ComputePool::State::State(const ComputePoolOptions& options)
     : max_wait_(options.max_wait) {
-  const int cpus = AvailableCpus();
-  const int most = std::max(1, cpus - 1);
-  const int defaults[kNumWorkClasses] = {cpus, most, 2 * cpus, most};
+  const auto defaults = ThreadsFor(AvailableCpus());
   for (size_t c = 0; c < kNumWorkClasses; ++c) {
     const int threads =
         options.threads[c] > 0 ? options.threads[c] : defaults[c];
@@ -290,6 +288,11 @@ void ComputePool::State::Close() {
   for (const Work& work : refused) work(DrainingError());
   for (const auto& lane : lanes_) lane->pool.join();
   timers_.join();
+}
+
+std::array<int, kNumWorkClasses> ThreadsFor(int cpus) {
+  const int most = std::max(1, cpus - 1);
+  return {cpus, most, 2 * cpus, most};
 }
 
 ComputePool::ComputePool(const ComputePoolOptions& options)

@@ -30,9 +30,12 @@ namespace argmesh {
 enum class WorkClass { kSearch = 0, kCompute = 1, kQuick = 2, kBulk = 3 };
 inline constexpr int kNumWorkClasses = 4;
 
+// Of the classes, for so many CPUs: all for searches, one less (at least one)
+// for computation and for bulk, twice as many for quick work.
+std::array<int, kNumWorkClasses> ThreadsFor(int cpus);
+
 struct ComputePoolOptions {
-  // 0: from the CPUs of this process: all for searches, one less (at least
-  // one) for computation and for bulk, twice as many for quick work.
+  // 0: ThreadsFor the CPUs of this process.
   std::array<int, kNumWorkClasses> threads = {0, 0, 0, 0};
   std::array<int, kNumWorkClasses> max_queued = {64, 64, 512, 512};
   absl::Duration max_wait = absl::Seconds(2);

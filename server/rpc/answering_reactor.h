@@ -7,6 +7,7 @@
 #ifndef ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 #define ARGMESH_SERVER_RPC_ANSWERING_REACTOR_H_
 
+#include <google/protobuf/message.h>
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
@@ -64,13 +65,15 @@ class AnsweringReactor : public Base {
  protected:
   // In a step of the pool, before the answer is made. True when that has to
   // wait because the connection has not taken those before: `again`, which
-  // alone owns the request of so many bytes, is run later. Until then the call
+  // alone owns the `request`, is run later. Until then the call
   // gives up its place.
-  bool Postpone(int64_t bytes, std::function<void()> again) {
+  bool Postpone(const google::protobuf::Message& request,
+                std::function<void()> again) {
     if (this->holdings().EnterRoom()) {
       this->environment().answer_room.LetNextIn(this->scope().peer());
       return false;
     }
+    const auto bytes = static_cast<int64_t>(request.SpaceUsedLong());
     this->ReleasePlace();
     {
       const std::lock_guard lock(this->scope().mutex());

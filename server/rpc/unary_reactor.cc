@@ -17,8 +17,9 @@ void UnaryReactor::Requested(
   const UnaryPlan& plan = method_.plan;
   if (plan.admission != nullptr && !AdmitTo(*plan.admission)) return;
   Run(plan.work_class, [this, request = std::move(request)]() mutable {
-    const auto bytes = static_cast<int64_t>(request->SpaceUsedLong());
-    if (Postpone(bytes, [this, request] { RequestedAgain(request); })) return;
+    if (Postpone(*request, [this, request] { RequestedAgain(request); })) {
+      return;
+    }
     const absl::Status status = method_.body(
         {environment(), stop(), scope().caller()}, *request, &response());
     // Before the answer, which waits until the caller takes it.
