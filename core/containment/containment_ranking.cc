@@ -27,9 +27,6 @@ constexpr double kTieMargin = 0.1;    // of scores
 // Votes inside out, in votes as given, from which on that is tried.
 constexpr double kWorthTurning = 0.9;
 constexpr float kSettled = 0.98F;  // F that more effort cannot raise much
-// Of as many candidates the windows stay in memory between the stages, 0.2 MB
-// each; those of others are loaded again.
-constexpr size_t kKeptWindows = 256;
 
 absl::Status CheckLimit(const char* name, int value) {
   if (value >= 1) return absl::OkStatus();
@@ -42,6 +39,7 @@ absl::Status CheckOptions(const RankContainmentOptions& options) {
   ARGMESH_RETURN_IF_ERROR(CheckLimit("exact_limit", options.exact_limit));
   ARGMESH_RETURN_IF_ERROR(CheckLimit("verify_limit", options.verify_limit));
   ARGMESH_RETURN_IF_ERROR(CheckLimit("thorough_limit", options.thorough_limit));
+  ARGMESH_RETURN_IF_ERROR(CheckLimit("keep_limit", options.keep_limit));
   return absl::OkStatus();
 }
 
@@ -137,7 +135,7 @@ class Chain {
     ARGMESH_ASSIGN_OR_RETURN(const auto windows, load_(candidate.votes.slot));
     if (windows == nullptr) return absl::OkStatus();
     candidate.loaded = true;
-    if (static_cast<size_t>(&candidate - candidates_.data()) < kKeptWindows) {
+    if (&candidate - candidates_.data() < options_.keep_limit) {
       candidate.windows = windows;
     }
     candidate.votes =

@@ -7,7 +7,7 @@
 //              whatever `parallel_for` does.
 // Fails        what `load` fails with; kInvalidArgument for an option outside
 //              its range; kCancelled, kDeadlineExceeded
-// Memory       0.2 MB for each of the first 256 candidates, 1 MB a thread.
+// Memory       0.2 MB for each of `keep_limit` candidates, 1 MB a thread.
 // Cost         index 10 ms + 25 us a shape, exact voting 1 ms for each of
 //              `exact_limit`, verification 8 ms for each of `verify_limit` and
 //              20 ms for each of `thorough_limit`, over the threads.
@@ -33,6 +33,9 @@ struct RankContainmentOptions {
   int exact_limit = 150;    // shapes whose windows are loaded, >= limit
   int verify_limit = 100;   // >= 1
   int thorough_limit = 20;  // >= 1
+  // Shapes whose windows stay in memory between exact voting and verification,
+  // those with the most votes; the others' are loaded again. >= 1
+  int keep_limit = 256;
   bool try_flipped = true;
   uint64_t seed = 1;
   // As VoteOptions::slots: shapes that may be found, null for all.
