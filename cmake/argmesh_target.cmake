@@ -75,7 +75,7 @@ function(argmesh_test name)
     set(ARG_LABEL unit)
   endif()
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 900)  # for what hangs; sanitizers take their time
+    set(ARG_TIMEOUT 1800)  # for what hangs; sanitizers take their time
   endif()
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${name})
   set(labels ${ARG_LABEL} ${ARGMESH_TEST_GROUP})

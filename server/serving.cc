@@ -1,6 +1,5 @@
 #include "server/serving.h"
 
-#include <algorithm>
 #include <map>
 #include <sstream>
 #include <utility>

@@ -7,12 +7,11 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "absl/time/clock.h"
 #include "core/access/key_file.h"
-#include "server/telemetry/gauge_sheet.h"
+#include "tests/integration/gauge_wait.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -70,21 +69,6 @@ class SilentCall {
   std::unique_ptr<grpc::GenericClientAsyncReaderWriter> stream_;
   bool ended_ = false;
 };
-
-double GaugeOf(TestServer& server, const std::string& name) {
-  GaugeSheet sheet;
-  server.rpc().WriteGauges(sheet);
-  return sheet.families().at(name).samples.at(0).value;
-}
-
-// Until it is `value`.
-void WaitForGauge(TestServer& server, const std::string& name, double value) {
-  const absl::Time end = absl::Now() + absl::Seconds(20);
-  while (GaugeOf(server, name) != value && absl::Now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  EXPECT_EQ(GaugeOf(server, name), value) << name;
-}
 
 std::shared_ptr<grpc::Channel> AnotherConnection(TestServer& server) {
   grpc::ChannelArguments arguments;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/sha256.h"
-#include "server/telemetry/gauge_sheet.h"
+#include "tests/integration/gauge_wait.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
@@ -247,23 +247,8 @@ class SlowStreamSearchTest : public StreamSearchTest {
     return server_.search().SearchShapes(&context, request, &response);
   }
 
-  // The value of a gauge; of the class `what` where it has classes.
-  double Gauge(const std::string& name, const std::string& what = "") {
-    GaugeSheet sheet;
-    server_.rpc().WriteGauges(sheet);
-    for (const auto& sample : sheet.families().at(name).samples) {
-      if (what.empty() || sample.labels.at(0).second == what) {
-        return sample.value;
-      }
-    }
-    ADD_FAILURE() << "no class " << what;
-    return 0;
-  }
-
   void AwaitPlaces(const std::string& what, double places) {
-    while (Gauge("argmesh_admission_used", what) != places) {
-      std::this_thread::yield();
-    }
+    WaitForGauge(server_, "argmesh_admission_used", places, what);
   }
 };
 
@@ -303,7 +288,7 @@ TEST_F(SlowStreamSearchTest, TakesNoPlaceOfASearchWhileItsAnswerIsNotTaken) {
   ASSERT_TRUE(stream->Read(&first));
   EXPECT_TRUE(first.has_query());
   ASSERT_CALL_OK(SearchByShape());
-  EXPECT_GT(Gauge("argmesh_unread_answer_bytes"), 0);
+  EXPECT_GT(GaugeOf(server_, "argmesh_unread_answer_bytes"), 0);
   const Found found = Receive(*stream);
   ASSERT_CALL_OK(found.status);
   EXPECT_EQ(found.order, "mmms");

@@ -12,11 +12,15 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
-#include "server/telemetry/gauge_sheet.h"
+#include "tests/integration/gauge_wait.h"
 #include "tests/integration/server_fixture.h"
 
 namespace argmesh {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::Gt;
+using ::testing::Lt;
 
 constexpr int kCalls = 40;
 constexpr int kShapesOfACall = 70;
@@ -114,35 +118,19 @@ class UnreadAnswersTest : public testing::Test {
     }
     server_->AddShape("parts", "large", TorusOff(), notes);
   }
-  double Gauge(const std::string& name) {
-    GaugeSheet sheet;
-    server_->rpc().WriteGauges(sheet);
-    return sheet.families().at(name).samples.at(0).value;
-  }
-  template <typename Condition>
-  void AwaitGauge(const std::string& name, const Condition& holds) {
-    const absl::Time end = absl::Now() + absl::Seconds(20);
-    while (!holds(Gauge(name)) && absl::Now() < end) {
-      absl::SleepFor(absl::Milliseconds(10));
-    }
-    EXPECT_TRUE(holds(Gauge(name))) << name << " is " << Gauge(name);
-  }
 
   std::unique_ptr<TestServer> server_;
 };
 
-bool IsPositive(double value) { return value > 0; }
-bool IsZero(double value) { return value == 0; }
-
 TEST_F(UnreadAnswersTest, AreAllThereForWhoTakesThemLate) {
   ManyCalls calls(*server_);
-  AwaitGauge(kPostponedBytes, IsPositive);
+  WaitForGauge(*server_, kPostponedBytes, Gt(0));
   absl::SleepFor(absl::Milliseconds(300));
   // The room, and one more for each thread.
-  EXPECT_GT(Gauge("argmesh_unread_answer_bytes"), 1e6);
-  EXPECT_LT(Gauge("argmesh_unread_answer_bytes"), 5e6);
+  EXPECT_THAT(GaugeOf(*server_, "argmesh_unread_answer_bytes"),
+              AllOf(Gt(1e6), Lt(5e6)));
   EXPECT_THAT(calls.Take(), testing::Each("OK"));
-  AwaitGauge(kPostponedBytes, IsZero);
+  WaitForGauge(*server_, kPostponedBytes, 0);
 }
 
 TEST_F(UnreadAnswersTest, EndTheCallsThatWaitForThemWhenNobodyTakesThem) {
@@ -150,30 +138,30 @@ TEST_F(UnreadAnswersTest, EndTheCallsThatWaitForThemWhenNobodyTakesThem) {
   limits.stream_idle_timeout = absl::Milliseconds(300);
   server_->rpc().SetLimits(limits);
   ManyCalls calls(*server_);
-  AwaitGauge(kPostponedBytes, IsPositive);
-  AwaitGauge("argmesh_calls_in_flight", IsZero);
-  EXPECT_EQ(Gauge(kPostponedBytes), 0);
+  WaitForGauge(*server_, kPostponedBytes, Gt(0));
+  WaitForGauge(*server_, "argmesh_calls_in_flight", 0);
+  EXPECT_EQ(GaugeOf(*server_, kPostponedBytes), 0);
   EXPECT_THAT(calls.Take(), testing::Contains(kOverloaded));
 }
 
 TEST_F(UnreadAnswersTest, KeepNoCallThatIsCancelled) {
   ManyCalls calls(*server_);
-  AwaitGauge(kPostponedBytes, IsPositive);
+  WaitForGauge(*server_, kPostponedBytes, Gt(0));
   calls.Cancel();
   calls.Take();
-  AwaitGauge("argmesh_calls_in_flight", IsZero);
-  EXPECT_EQ(Gauge(kPostponedBytes), 0);
-  EXPECT_EQ(Gauge("argmesh_unread_answer_bytes"), 0);
+  WaitForGauge(*server_, "argmesh_calls_in_flight", 0);
+  EXPECT_EQ(GaugeOf(*server_, kPostponedBytes), 0);
+  EXPECT_EQ(GaugeOf(*server_, "argmesh_unread_answer_bytes"), 0);
 }
 
 TEST_F(UnreadAnswersTest, DoNotHoldUpADrain) {
   ManyCalls calls(*server_);
-  AwaitGauge(kPostponedBytes, IsPositive);
+  WaitForGauge(*server_, kPostponedBytes, Gt(0));
   std::thread shutdown([this] {
     EXPECT_TRUE(server_->rpc().Shutdown(absl::Now() + absl::Seconds(20)));
   });
   // Nobody takes anything until all that wait have been told.
-  AwaitGauge("argmesh_draining", IsPositive);
+  WaitForGauge(*server_, "argmesh_draining", Gt(0));
   absl::SleepFor(absl::Milliseconds(300));
   const std::vector<std::string> ends = calls.Take();
   shutdown.join();

@@ -17,6 +17,13 @@ class AnswerRoomTest : public testing::Test {
         &call, peer, [this, name] { called_ += std::string(name) + ' '; });
   }
 
+  // `first_` and `second_`, for what `full_` holds.
+  void LetTwoWait() {
+    room_.Hold(&full_, "peer", 20);
+    EXPECT_FALSE(EnterOrWait(first_, "first"));
+    EXPECT_FALSE(EnterOrWait(second_, "second"));
+  }
+
   AnswerRoom room_{20};
   Call full_;
   Call first_;
@@ -38,9 +45,7 @@ TEST_F(AnswerRoomTest, LetsAllInWhileThereIsRoom) {
 }
 
 TEST_F(AnswerRoomTest, CallsThoseThatWaitInTheirOrder) {
-  room_.Hold(&full_, "peer", 20);
-  EXPECT_FALSE(EnterOrWait(first_, "first"));
-  EXPECT_FALSE(EnterOrWait(second_, "second"));
+  LetTwoWait();
   room_.Remove(&full_, "peer");
   EXPECT_EQ(called_, "first ");
   EXPECT_FALSE(EnterOrWait(third_, "third")) << "others wait";
@@ -53,9 +58,7 @@ TEST_F(AnswerRoomTest, CallsThoseThatWaitInTheirOrder) {
 }
 
 TEST_F(AnswerRoomTest, LetsOneThatWasCalledInVainWaitAsTheFirst) {
-  room_.Hold(&full_, "peer", 20);
-  EXPECT_FALSE(EnterOrWait(first_, "first"));
-  EXPECT_FALSE(EnterOrWait(second_, "second"));
+  LetTwoWait();
   room_.Remove(&full_, "peer");
   room_.Hold(&third_, "peer", 20);
   EXPECT_FALSE(EnterOrWait(first_, "first"));
@@ -66,9 +69,7 @@ TEST_F(AnswerRoomTest, LetsOneThatWasCalledInVainWaitAsTheFirst) {
 }
 
 TEST_F(AnswerRoomTest, CallsNobodyThatIsGone) {
-  room_.Hold(&full_, "peer", 20);
-  EXPECT_FALSE(EnterOrWait(first_, "first"));
-  EXPECT_FALSE(EnterOrWait(second_, "second"));
+  LetTwoWait();
   room_.Remove(&first_, "peer");
   EXPECT_EQ(called_, "");
   room_.Remove(&full_, "peer");
