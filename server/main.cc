@@ -3,7 +3,6 @@
 //
 // Exit codes: 0 stopped as asked, 1 could not start or stop cleanly, 2 the
 // command line is wrong. stderr carries one JSON object a line.
-#include <malloc.h>
 #include <pthread.h>
 #include <signal.h>
 
@@ -25,8 +24,8 @@
 #include "absl/time/clock.h"
 #include "core/base/status_macros.h"
 #include "core/base/stop_token.h"
-#include "server/engine/cpu_count.h"
 #include "server/options.h"
+#include "server/process_heap.h"
 #include "server/serving.h"
 
 namespace argmesh {
@@ -35,6 +34,7 @@ namespace {
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 constexpr absl::Duration kBetweenLooks = absl::Milliseconds(10);
+constexpr absl::Duration kBetweenTrims = absl::Seconds(10);
 
 // Written whole or not at all: a script that sees the file can read it.
 absl::Status WritePortFile(const std::string& path,
@@ -62,11 +62,14 @@ sigset_t StopSignals() {
   return signals;
 }
 
-// Waits for a signal to stop, at most so long; 0 when there was none.
-int WaitForStop(absl::Duration at_most) {
-  const sigset_t signals = StopSignals();
+// Waits for one of the signals, at most so long; 0 when there was none.
+int WaitFor(const sigset_t& signals, absl::Duration at_most) {
   const timespec time = absl::ToTimespec(at_most);
   return std::max(0, sigtimedwait(&signals, nullptr, &time));
+}
+
+int WaitForStop(absl::Duration at_most) {
+  return WaitFor(StopSignals(), at_most);
 }
 
 // Takes the signals while the server is not there yet.
@@ -95,15 +98,6 @@ class StopWhileOpening {
   int signal_ = 0;  // the watcher's until it has ended
   std::jthread watcher_;
 };
-
-// glibc has up to eight heaps a CPU, each as large as the threads that share it
-// ever needed at once. One a CPU, two at least, are enough here and settle
-// soon: what a server takes stays the same over days.
-void LimitHeaps() {
-#ifdef M_ARENA_MAX
-  mallopt(M_ARENA_MAX, std::max(2, AvailableCpus()));
-#endif
-}
 
 // NOT_SERVING, the drain delay, then no new calls and the end of those there
 // are. A second signal skips the waiting.
@@ -162,7 +156,8 @@ absl::Status Serve(const std::vector<std::string>& arguments,
   sigaddset(&signals, SIGHUP);
   while (signal == 0 || signal == SIGHUP) {
     if (signal == SIGHUP) Reload(arguments, *serving);
-    sigwait(&signals, &signal);
+    signal = WaitFor(signals, kBetweenTrims);
+    if (signal == 0) TrimHeaps();
   }
   serving->log().Write(
       LogLevel::kInfo, "stopping",
@@ -214,7 +209,7 @@ int Main(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   // Before any thread is started, so that every thread inherits it and only
-  // sigwait sees the signals.
+  // those that wait for the signals see them.
   sigset_t signals = argmesh::StopSignals();
   sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);

@@ -1,0 +1,31 @@
+#include "server/process_heap.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+
+#include "server/engine/cpu_count.h"
+
+namespace argmesh {
+namespace {
+
+// glibc's own start value, which it raises up to 32 MiB when left alone.
+constexpr int kLargeBytes = 256 << 10;
+
+}  // namespace
+
+void LimitHeaps() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, std::max(2, AvailableCpus()));
+  mallopt(M_MMAP_THRESHOLD, kLargeBytes);
+  mallopt(M_TRIM_THRESHOLD, 4 * kLargeBytes);
+#endif
+}
+
+void TrimHeaps() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+}  // namespace argmesh
