@@ -9,7 +9,7 @@
 namespace argmesh {
 namespace {
 
-// glibc's own start value, which it raises up to 32 MiB when left alone.
+// Twice what glibc begins with; set, it is not raised up to 32 MiB.
 constexpr int kLargeBytes = 256 << 10;
 
 }  // namespace

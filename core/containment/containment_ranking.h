@@ -34,7 +34,7 @@ struct RankContainmentOptions {
   int verify_limit = 100;   // >= 1
   int thorough_limit = 20;  // >= 1
   // Shapes whose windows stay in memory between exact voting and verification,
-  // those with the most votes; the others' are loaded again. >= 1
+  // the index's first; the others' are loaded again. >= 1
   int keep_limit = 256;
   bool try_flipped = true;
   uint64_t seed = 1;

@@ -42,8 +42,13 @@ class Catalog {
   virtual absl::StatusOr<CollectionRecord> UpdateCollection(
       const CollectionPatch& patch) = 0;
   // kCollectionNotFound, kCollectionNotEmpty, kEtagMismatch, kRequestIdReused.
+  // Nobody sees it or its shapes any more; many shapes are left for
+  // RemoveSomeDeleted.
   virtual absl::StatusOr<CollectionDeleted> DeleteCollection(
       const CollectionDelete& removal) = 0;
+  // Removes some of the shapes that deleted collections left, in one small
+  // write, so that others' writes come between.
+  virtual absl::StatusOr<RemovedShapes> RemoveSomeDeleted() = 0;
   // kCollectionNotFound.
   virtual absl::StatusOr<CollectionRecord> GetCollection(
       std::string_view id) const = 0;

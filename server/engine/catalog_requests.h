@@ -49,6 +49,11 @@ struct CollectionDeleted {
   std::vector<Sha256Digest> unreferenced;  // meshes no row names any more
 };
 
+struct RemovedShapes {
+  bool more = false;  // call again: something may be left
+  std::vector<Sha256Digest> unreferenced;
+};
+
 // What becomes of a shape whose id is taken.
 enum class IfExists {
   kFail,        // kShapeExists

@@ -1,15 +1,8 @@
 #include "server/engine/engine.h"
 
-#include <algorithm>
-#include <atomic>
-#include <condition_variable>
 #include <mutex>
-#include <stop_token>
-#include <thread>
 #include <utility>
 
-#include "absl/strings/str_format.h"
-#include "absl/time/clock.h"
 #include "core/base/status_macros.h"
 #include "core/graph/graph_codec.h"
 #include "server/engine/engine_parts.h"
@@ -18,23 +11,6 @@
 
 namespace argmesh {
 namespace {
-
-constexpr absl::Duration kFirstRetry = absl::Seconds(1);
-constexpr absl::Duration kLastRetry = absl::Minutes(5);
-
-// Until no collection is missing or the engine closes; ever more seldom.
-void KeepLoading(Gallery& gallery, const std::stop_token& stop) {
-  const StopToken token(stop, absl::InfiniteFuture());
-  std::mutex mutex;
-  std::unique_lock lock(mutex);
-  std::condition_variable_any wake;  // by `stop` alone
-  absl::Duration wait = kFirstRetry;
-  while (!gallery.LoadMissing(token) && !stop.stop_requested()) {
-    wake.wait_for(lock, stop, absl::ToChronoMilliseconds(wait),
-                  [] { return false; });
-    wait = std::min(2 * wait, kLastRetry);
-  }
-}
 
 absl::Status CheckOptions(const EngineOptions& options) {
   if (options.max_compute_time <= absl::ZeroDuration() ||
@@ -60,7 +36,8 @@ Engine::Parts::Parts(const EngineOptions& engine_options,
       ingest(options, *catalog, *meshes, gallery, running_reindexes,
              mesh_memory),
       reindexer(*catalog, gallery, ingest, pool, running_reindexes),
-      search(options, *catalog, *meshes, gallery, mesh_memory, pool) {}
+      search(options, *catalog, *meshes, gallery, mesh_memory, pool),
+      housekeeping(*catalog, *meshes, gallery, ingest, options.sweep_age) {}
 
 absl::Status Engine::Parts::CheckOpen() const {
   if (!closed) return absl::OkStatus();
@@ -75,21 +52,7 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::Create(
   ARGMESH_RETURN_IF_ERROR(CheckOptions(options));
   auto parts =
       std::make_unique<Parts>(options, std::move(catalog), std::move(meshes));
-  parts->startup = std::jthread([&p = *parts](const std::stop_token& stop) {
-    const StopToken token(stop, absl::InfiniteFuture());
-    p.gallery.Load(token);
-    // Nothing waits for the sweeps; what they leave goes at the next start.
-    (void)p.catalog->ForgetChanges(token);
-    (void)p.catalog->RemoveUnusedGraphs(token);
-    (void)p.meshes->Sweep(
-        absl::Now() - p.options.sweep_age,
-        [&catalog = *p.catalog,
-         token](const Sha256Digest& sha256) -> absl::StatusOr<bool> {
-          ARGMESH_RETURN_IF_ERROR(token.Check());
-          return catalog.IsMeshReferenced(sha256);
-        });
-    KeepLoading(p.gallery, stop);
-  });
+  parts->housekeeping.Start();
   return std::unique_ptr<Engine>(new Engine(std::move(parts)));
 }
 
@@ -102,10 +65,7 @@ absl::Status Engine::Close() {
   if (parts_->closed.exchange(true)) return absl::OkStatus();
   parts_->gallery.Close();
   parts_->pool.Close();
-  if (parts_->startup.joinable()) {
-    parts_->startup.request_stop();
-    parts_->startup.join();
-  }
+  parts_->housekeeping.Stop();
   return parts_->catalog->Close();
 }
 

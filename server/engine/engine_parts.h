@@ -7,7 +7,6 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -17,6 +16,7 @@
 #include "server/engine/engine.h"
 #include "server/engine/engine_options.h"
 #include "server/engine/gallery.h"
+#include "server/engine/housekeeping.h"
 #include "server/engine/ingest.h"
 #include "server/engine/mesh_memory.h"
 #include "server/engine/mesh_store.h"
@@ -54,8 +54,7 @@ class Engine::Parts {
   ShapeSearch search;
   std::atomic<bool> closed{false};
   std::mutex close_mutex;
-  // Loads the gallery, sweeps the stores, then tries again what was not loaded.
-  std::jthread startup;
+  Housekeeping housekeeping;
 };
 
 }  // namespace argmesh

@@ -140,6 +140,7 @@ absl::Status Engine::DeleteCollection(CollectionDelete removal,
     parts_->gallery.Remove(deleted.uid);
   }
   parts_->ingest.RemoveMeshes(deleted.unreferenced);
+  parts_->housekeeping.Wake();
   return absl::OkStatus();
 }
 

@@ -12,6 +12,7 @@ struct StoreLoad {
   int64_t wal_bytes = 0;
   int64_t meshes = 0;  // files that rows name
   int64_t mesh_bytes = 0;
+  int64_t deleted_shapes = 0;  // of deleted collections, not removed yet
   int64_t free_bytes = 0;     // of the disk
   bool writable = true;       // false: writes that add are refused, disk full
   int64_t queued_writes = 0;  // wait for a commit

@@ -26,6 +26,11 @@ struct ShapeRow {
   ShapeRecord record;
 };
 
+// Begins the name and the uid of a collection that is deleted and has shapes
+// left (SqliteCatalog::RemoveSomeDeleted); comes after all that ids are made
+// of.
+#define ARGMESH_DELETED "'~'"
+
 // The columns that ReadCollectionRow and ReadShapeRow expect from column 0 on;
 // of shape s and collection c. Then come columns of the query's own.
 #define ARGMESH_COLLECTION_COLUMNS                                      \

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/status_macros.h"
+#include "server/storage/catalog_rows.h"
 #include "server/storage/change_log.h"
 #include "server/storage/schema.h"
 #include "server/storage/stopped_queries.h"
@@ -46,6 +47,7 @@ SqliteCatalog::SqliteCatalog(std::shared_ptr<DataDirectory> directory,
                              std::unique_ptr<SqliteConnection> connection,
                              const SqliteCatalogOptions& options)
     : directory_(std::move(directory)),
+      removed_at_once_(options.removed_at_once),
       writer_(std::move(connection), options.writer),
       readers_(directory_->database_path(), options.max_readers) {}
 
@@ -88,6 +90,10 @@ StoreLoad SqliteCatalog::Load() const {
     ARGMESH_RETURN_IF_ERROR(meshes.Step().status());
     load.meshes = meshes.Int(0);
     load.mesh_bytes = meshes.Int(1);
+    ARGMESH_ASSIGN_OR_RETURN(
+        load.deleted_shapes,
+        connection.QueryInt("SELECT COALESCE(SUM(shape_count), 0) "
+                            "FROM collection WHERE name >= " ARGMESH_DELETED));
     return absl::OkStatus();
   });
   return load;

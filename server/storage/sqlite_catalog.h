@@ -23,6 +23,9 @@ namespace argmesh {
 struct SqliteCatalogOptions {
   SqliteWriterOptions writer;
   int max_readers = 8;  // > 0
+  // Shapes of a deleted collection that are removed in one write: as many take
+  // about a tenth of a second.
+  int removed_at_once = 64;  // > 0
 };
 
 class SqliteCatalog : public Catalog {
@@ -43,6 +46,7 @@ class SqliteCatalog : public Catalog {
       const CollectionPatch& patch) override;
   absl::StatusOr<CollectionDeleted> DeleteCollection(
       const CollectionDelete& removal) override;
+  absl::StatusOr<RemovedShapes> RemoveSomeDeleted() override;
   absl::StatusOr<CollectionRecord> GetCollection(
       std::string_view id) const override;
   absl::StatusOr<std::vector<CollectionRecord>> ListCollections(
@@ -111,6 +115,7 @@ class SqliteCatalog : public Catalog {
       std::string_view after_id, int limit) const;
 
   const std::shared_ptr<DataDirectory> directory_;
+  const int removed_at_once_;
   SqliteWriter writer_;
   mutable SqliteReaders readers_;
   std::mutex close_mutex_;

@@ -1,5 +1,7 @@
 // Collections in SQLite.
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
@@ -14,6 +16,8 @@ namespace argmesh {
 namespace {
 
 constexpr int64_t kCollectionBytes = 1024;
+// Of its log, that are removed in one write.
+constexpr int64_t kChangesAtOnce = 1000;
 
 absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
                                         const CollectionRecord& record) {
@@ -80,8 +84,21 @@ absl::StatusOr<std::vector<Sha256Digest>> MeshesOf(SqliteConnection& connection,
   }
 }
 
+// The meshes of `candidates` that no shape names any more, and their rows go.
+absl::StatusOr<std::vector<Sha256Digest>> DropMeshes(
+    SqliteConnection& connection, const std::vector<Sha256Digest>& candidates) {
+  std::vector<Sha256Digest> unreferenced;
+  for (const Sha256Digest& sha256 : candidates) {
+    ARGMESH_ASSIGN_OR_RETURN(const bool gone,
+                             DeleteUnreferencedMesh(connection, sha256));
+    if (gone) unreferenced.push_back(sha256);
+  }
+  return unreferenced;
+}
+
 absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
-                                         const CollectionDelete& removal) {
+                                         const CollectionDelete& removal,
+                                         int removed_at_once) {
   ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
                            FindCollectionRow(connection, removal.id));
   ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, CollectionEtag(row.record)));
@@ -90,6 +107,16 @@ absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
   }
   CollectionDeleted deleted;
   deleted.uid = row.record.uid;
+  if (row.record.shape_count > removed_at_once ||
+      row.record.generation > kChangesAtOnce) {
+    ARGMESH_RETURN_IF_ERROR(
+        connection
+            .Run("UPDATE collection SET name = " ARGMESH_DELETED " || uid, "
+                 "uid = " ARGMESH_DELETED " || uid WHERE id = ?",
+                 row.number)
+            .status());
+    return deleted;
+  }
   ARGMESH_ASSIGN_OR_RETURN(const std::vector<Sha256Digest> meshes,
                            MeshesOf(connection, row.number));
   ARGMESH_RETURN_IF_ERROR(
@@ -98,12 +125,74 @@ absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
   ARGMESH_RETURN_IF_ERROR(
       connection.Run("DELETE FROM collection WHERE id = ?", row.number)
           .status());
-  for (const Sha256Digest& sha256 : meshes) {
-    ARGMESH_ASSIGN_OR_RETURN(const bool gone,
-                             DeleteUnreferencedMesh(connection, sha256));
-    if (gone) deleted.unreferenced.push_back(sha256);
-  }
+  ARGMESH_ASSIGN_OR_RETURN(deleted.unreferenced,
+                           DropMeshes(connection, meshes));
   return deleted;
+}
+
+// The number of a deleted collection that is not removed yet; none: 0.
+absl::StatusOr<int64_t> FindDeleted(SqliteConnection& connection) {
+  return connection.QueryInt(
+      "SELECT COALESCE((SELECT id FROM collection "
+      "WHERE name >= " ARGMESH_DELETED " LIMIT 1), 0)");
+}
+
+// Removes the first shapes of a collection, `most` of them; how many.
+absl::StatusOr<int64_t> RemoveShapes(SqliteConnection& connection,
+                                     int64_t collection, int most,
+                                     std::vector<Sha256Digest>& unreferenced) {
+  ARGMESH_ASSIGN_OR_RETURN(SqliteStatement rows,
+                           connection.Query("SELECT id, mesh_sha256 FROM shape "
+                                            "WHERE collection_id = ? LIMIT ?",
+                                            collection, most));
+  std::vector<int64_t> shapes;
+  std::set<Sha256Digest> meshes;
+  while (true) {
+    ARGMESH_ASSIGN_OR_RETURN(const bool row, rows.Step());
+    if (!row) break;
+    shapes.push_back(rows.Int(0));
+    if (rows.IsNull(1)) continue;
+    ARGMESH_ASSIGN_OR_RETURN(const Sha256Digest sha256, rows.Digest(1));
+    meshes.insert(sha256);
+  }
+  for (const int64_t shape : shapes) {
+    ARGMESH_RETURN_IF_ERROR(
+        connection.Run("DELETE FROM shape WHERE id = ?", shape).status());
+  }
+  const auto removed = static_cast<int64_t>(shapes.size());
+  ARGMESH_RETURN_IF_ERROR(
+      connection
+          .Run("UPDATE collection SET shape_count = shape_count - ? "
+               "WHERE id = ?",
+               removed, collection)
+          .status());
+  ARGMESH_ASSIGN_OR_RETURN(
+      unreferenced, DropMeshes(connection, {meshes.begin(), meshes.end()}));
+  return removed;
+}
+
+// The collection itself goes last.
+absl::StatusOr<RemovedShapes> RemoveSome(SqliteConnection& connection,
+                                         int removed_at_once) {
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t collection, FindDeleted(connection));
+  RemovedShapes removed;
+  removed.more = collection != 0;
+  if (!removed.more) return removed;
+  ARGMESH_ASSIGN_OR_RETURN(const int64_t shapes,
+                           RemoveShapes(connection, collection, removed_at_once,
+                                        removed.unreferenced));
+  if (shapes > 0) return removed;
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t changes,
+      connection.Run("DELETE FROM change_log WHERE collection_id = ?1 AND "
+                     "generation IN (SELECT generation FROM change_log "
+                     "WHERE collection_id = ?1 LIMIT ?2)",
+                     collection, kChangesAtOnce));
+  if (changes > 0) return removed;
+  ARGMESH_RETURN_IF_ERROR(
+      connection.Run("DELETE FROM collection WHERE id = ?", collection)
+          .status());
+  return removed;
 }
 
 }  // namespace
@@ -143,12 +232,29 @@ absl::StatusOr<CollectionDeleted> SqliteCatalog::DeleteCollection(
   absl::StatusOr<CollectionDeleted> deleted;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
-        deleted = WriteOnce(connection, removal.request, ParseCollectionDeleted,
-                            SerializeCollectionDeleted,
-                            [&] { return Delete(connection, removal); });
+        deleted = WriteOnce(
+            connection, removal.request, ParseCollectionDeleted,
+            SerializeCollectionDeleted,
+            [&] { return Delete(connection, removal, removed_at_once_); });
         return deleted.status();
       }));
   return deleted;
+}
+
+absl::StatusOr<RemovedShapes> SqliteCatalog::RemoveSomeDeleted() {
+  absl::StatusOr<int64_t> found;
+  ARGMESH_RETURN_IF_ERROR(readers_.Read([&](SqliteConnection& connection) {
+    found = FindDeleted(connection);
+    return found.status();
+  }));
+  absl::StatusOr<RemovedShapes> removed = RemovedShapes{};
+  if (*found == 0) return removed;
+  ARGMESH_RETURN_IF_ERROR(
+      writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
+        removed = RemoveSome(connection, removed_at_once_);
+        return removed.status();
+      }));
+  return removed;
 }
 
 absl::StatusOr<CollectionRecord> SqliteCatalog::GetCollection(
@@ -173,7 +279,8 @@ absl::StatusOr<std::vector<CollectionRecord>> SqliteCatalog::ListCollections(
             SqliteStatement statement,
             connection.Query("SELECT " ARGMESH_COLLECTION_COLUMNS
                              " FROM collection c WHERE c.name > ? "
-                             "ORDER BY c.name LIMIT ?",
+                             "AND c.name < " ARGMESH_DELETED
+                             " ORDER BY c.name LIMIT ?",
                              after_id, limit));
         while (true) {
           ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());

@@ -6,6 +6,7 @@
 #include "core/base/status_macros.h"
 #include "server/engine/catalog_errors.h"
 #include "server/engine/error_reason.h"
+#include "server/storage/catalog_rows.h"
 #include "server/storage/posix_file.h"
 #include "server/storage/stopped_queries.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 // Holds for the shapes `s` of the collections `c` that are looked at: those of
 // the first parameter, all when it is empty.
-constexpr char kOfCollection[] = "(?1 = '' OR c.name = ?1)";
+constexpr char kOfCollection[] =
+    "(c.name = ?1 OR (?1 = '' AND c.name < " ARGMESH_DELETED "))";
 
 // Every column of stored bytes, and the column of its CRC-32C.
 struct CheckedColumn {

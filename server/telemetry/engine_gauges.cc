@@ -77,6 +77,9 @@ void WriteStore(const Engine& engine, GaugeSheet& sheet) {
               static_cast<double>(load.meshes));
   sheet.Gauge("argmesh_store_mesh_bytes", "Bytes of these mesh files.",
               static_cast<double>(load.mesh_bytes));
+  sheet.Gauge("argmesh_store_deleted_shapes",
+              "Shapes of deleted collections that are not removed yet.",
+              static_cast<double>(load.deleted_shapes));
   sheet.Gauge("argmesh_store_free_bytes", "Free space on the store's disk.",
               static_cast<double>(load.free_bytes));
   sheet.Gauge("argmesh_store_writable",

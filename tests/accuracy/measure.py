@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -32,8 +33,16 @@ class Server:
     def __init__(self, binaries, work):
         self._binaries = binaries
         self._work = work
+        self._process = None
 
     def __enter__(self):
+        try:
+            return self._start()
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def _start(self):
         address = self._work / "address"
         address.unlink(missing_ok=True)
         with open(self._work / "server.log", "ab") as log:
@@ -48,12 +57,12 @@ class Server:
             if self._process.poll() is not None:
                 break
             time.sleep(0.1)
-        self.__exit__()
         raise RuntimeError(f"the server did not start: {log.name}")
 
     def __exit__(self, *unused):
-        self._process.terminate()
-        self._process.wait()
+        if self._process:
+            self._process.terminate()
+            self._process.wait()
 
 
 class Measurement:
@@ -85,7 +94,9 @@ class Measurement:
         return result
 
     def _result_path(self, row):
-        return self._work / f"{row.key}.json"
+        # Other queries, another result.
+        every = f"-{rows.CHANGES[row.queries][2]}" if row.queries else ""
+        return self._work / f"{row.key}{every}.json"
 
     def _argmesh(self, server, *command, json_output=False):
         extra = ["--json"] if json_output else []
@@ -129,7 +140,7 @@ class Measurement:
         return self._variants(name, folder, options, every)
 
     def _variants(self, name, folder, options, every):
-        out = self._work / "variants" / name
+        out = self._work / "variants" / f"{name}-{every}"
         if not (out / "complete").exists():
             say(f"changing meshes: {name}")
             subprocess.run(
@@ -180,6 +191,8 @@ def measure_all(measurement, server, quick):
 
 
 def main():
+    # Ended from outside, it ends its server.
+    signal.signal(signal.SIGTERM, lambda *unused: sys.exit("ended"))
     arguments = parse_arguments()
     work = arguments.work / digest_of(arguments.binaries / "argmeshd")
     work.mkdir(parents=True, exist_ok=True)

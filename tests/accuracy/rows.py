@@ -41,16 +41,16 @@ CHANGES = {
     "parts": (
         "shrec07_dev",
         ("--similarity", "--parts", "--min-part-area", "0.05"),
-        5,
+        3,
     ),
-    "half-x": ("shrec07_dev", ("--similarity", "--half", "0"), 5),
-    "half-y": ("shrec07_dev", ("--similarity", "--half", "1"), 5),
-    "half-z": ("shrec07_dev", ("--similarity", "--half", "2"), 5),
+    "half-x": ("shrec07_dev", ("--similarity", "--half", "0"), 3),
+    "half-y": ("shrec07_dev", ("--similarity", "--half", "1"), 3),
+    "half-z": ("shrec07_dev", ("--similarity", "--half", "2"), 3),
     "piece-30": (
         "shrec07_dev",
         ("--similarity", "--piece", "0.3", "--resample", "2000",
          "--size-noise", "0.003"),
-        5,
+        3,
     ),
     "disc": (
         "shrec07_dev",

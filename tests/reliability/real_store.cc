@@ -19,9 +19,14 @@ absl::StatusOr<RealStore> RealStore::Open(const std::filesystem::path& path) {
   SqliteCatalogOptions options;
   options.writer.passive_checkpoint_bytes = 500'000;
   options.writer.truncate_checkpoint_bytes = 1'500'000;
+  options.removed_at_once = 1;
   ARGMESH_ASSIGN_OR_RETURN(store.catalog,
                            SqliteCatalog::Open(store.directory, options));
   ARGMESH_RETURN_IF_ERROR(store.catalog->RemoveUnusedGraphs({}));
+  RemovedShapes removed = {.more = true};
+  while (removed.more) {
+    ARGMESH_ASSIGN_OR_RETURN(removed, store.catalog->RemoveSomeDeleted());
+  }
   ARGMESH_RETURN_IF_ERROR(store.meshes
                               ->Sweep(absl::Now(),
                                       [&store](const Sha256Digest& sha256) {

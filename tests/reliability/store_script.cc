@@ -162,6 +162,12 @@ StoreScript::Step StoreScript::DeleteCollection() {
     ARGMESH_ASSIGN_OR_RETURN(const CollectionDeleted deleted,
                              catalog.DeleteCollection(removal));
     RemoveMeshes(deleted.unreferenced, catalog, meshes);
+    // A failure here is none of the deletion: what is left goes later.
+    absl::StatusOr<RemovedShapes> removed = catalog.RemoveSomeDeleted();
+    while (removed.ok() && removed->more) {
+      RemoveMeshes(removed->unreferenced, catalog, meshes);
+      removed = catalog.RemoveSomeDeleted();
+    }
     return absl::OkStatus();
   };
 }

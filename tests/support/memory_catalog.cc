@@ -193,6 +193,10 @@ absl::StatusOr<CollectionDeleted> MemoryCatalog::DeleteCollection(
                                  SerializeCollectionDeleted, write);
 }
 
+absl::StatusOr<RemovedShapes> MemoryCatalog::RemoveSomeDeleted() {
+  return RemovedShapes{};  // nothing is left behind
+}
+
 absl::StatusOr<CollectionRecord> MemoryCatalog::GetCollection(
     std::string_view id) const {
   const std::lock_guard lock(mutex_);

@@ -29,6 +29,7 @@ class MemoryCatalog : public Catalog {
       const CollectionPatch& patch) override;
   absl::StatusOr<CollectionDeleted> DeleteCollection(
       const CollectionDelete& removal) override;
+  absl::StatusOr<RemovedShapes> RemoveSomeDeleted() override;
   absl::StatusOr<CollectionRecord> GetCollection(
       std::string_view id) const override;
   absl::StatusOr<std::vector<CollectionRecord>> ListCollections(

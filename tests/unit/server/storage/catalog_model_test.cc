@@ -68,6 +68,21 @@ std::string ShowDeleted(const ShapeDeleted& deleted) {
   return SerializeShapeDeleted(deleted) + Digests(deleted.unreferenced);
 }
 
+// With all that is left for later.
+absl::StatusOr<CollectionDeleted> DeleteWhole(Catalog& catalog,
+                                              const CollectionDelete& removal) {
+  ARGMESH_ASSIGN_OR_RETURN(CollectionDeleted deleted,
+                           catalog.DeleteCollection(removal));
+  RemovedShapes removed = {.more = true, .unreferenced = {}};
+  while (removed.more) {
+    ARGMESH_ASSIGN_OR_RETURN(removed, catalog.RemoveSomeDeleted());
+    deleted.unreferenced.insert(deleted.unreferenced.end(),
+                                removed.unreferenced.begin(),
+                                removed.unreferenced.end());
+  }
+  return deleted;
+}
+
 // One operation on any catalog; the same text from equal catalogs.
 using Operation = std::function<std::string(Catalog&)>;
 
@@ -193,7 +208,7 @@ class Operations {
     removal.request = Stamp("DeleteCollection", removal.id);
     return [=](Catalog& catalog) {
       return "delete " + removal.id + ": " +
-             Text(catalog.DeleteCollection(removal),
+             Text(DeleteWhole(catalog, removal),
                   [](const CollectionDeleted& deleted) {
                     return deleted.uid + Digests(deleted.unreferenced);
                   });
@@ -376,7 +391,9 @@ class CatalogModelTest : public ::testing::Test {
         folder_.path() / "data",
         {.min_free_bytes = 0, .allow_network_file_system = true});
     ASSERT_TRUE(directory.ok()) << directory.status();
-    auto catalog = SqliteCatalog::Open(*std::move(directory));
+    SqliteCatalogOptions options;
+    options.removed_at_once = 2;
+    auto catalog = SqliteCatalog::Open(*std::move(directory), options);
     ASSERT_TRUE(catalog.ok()) << catalog.status();
     catalog_ = *std::move(catalog);
   }

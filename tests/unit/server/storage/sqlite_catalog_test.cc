@@ -157,6 +157,51 @@ TEST_F(SqliteCatalogTest, HasEverythingAgainAfterARestart) {
   EXPECT_EQ(graph.labels, SamplePut(cups_, "s2", 2).labels);
 }
 
+TEST_F(SqliteCatalogTest, RemovesManyShapesOfADeletedCollectionInPieces) {
+  constexpr int kShapes = 150;
+  Fill(kShapes);
+  const CollectionRecord mugs = SampleCollection("mugs");
+  ASSERT_THAT(catalog_->InsertCollection(mugs, {}), IsOk());
+  ASSERT_THAT(catalog_->PutShape(SamplePut(mugs, "s", 3)), IsOk());
+  EXPECT_FALSE(catalog_->RemoveSomeDeleted()->more);
+  CollectionDelete removal{"cups", /*force=*/true, ""};
+  removal.request = SampleRequest('1', "DeleteCollection", "cups");
+  ASSERT_OK_AND_ASSIGN(const CollectionDeleted deleted,
+                       catalog_->DeleteCollection(removal));
+  EXPECT_EQ(deleted.uid, cups_.uid);
+  EXPECT_EQ(CountRows("shape"), kShapes + 1);
+  EXPECT_EQ(catalog_->Load().deleted_shapes, kShapes);
+  // Nobody sees it, and its name may be taken.
+  EXPECT_TRUE(absl::IsNotFound(catalog_->GetShape("cups", "s0").status()));
+  EXPECT_EQ(catalog_->ScanGraphs(cups_.uid, "", 10)->size(), 0U);
+  EXPECT_EQ(catalog_->ReadChanges(cups_.uid, 0, 10)->size(), 0U);
+  EXPECT_EQ(catalog_->ListCollections("", 10)->size(), 1U);
+  EXPECT_EQ(catalog_->DeleteCollection(removal)->uid, cups_.uid);
+  CollectionRecord again = SampleCollection("cups");
+  again.uid = "another";
+  ASSERT_THAT(catalog_->InsertCollection(again, {}), IsOk());
+  ASSERT_THAT(catalog_->PutShape(SamplePut(again, "s", 200)), IsOk());
+
+  ASSERT_OK_AND_ASSIGN(RemovedShapes removed, catalog_->RemoveSomeDeleted());
+  EXPECT_TRUE(removed.more);
+  EXPECT_EQ(CountRows("shape"), kShapes - 64 + 2);
+  EXPECT_EQ(catalog_->Load().deleted_shapes, kShapes - 64);
+  size_t unreferenced = removed.unreferenced.size();
+  Close();
+  Open();
+  while (removed.more) {
+    ASSERT_OK_AND_ASSIGN(removed, catalog_->RemoveSomeDeleted());
+    unreferenced += removed.unreferenced.size();
+  }
+  EXPECT_EQ(catalog_->Load().deleted_shapes, 0);
+  EXPECT_EQ(unreferenced, kShapes - 1U) << "all but the mesh of the mug";
+  EXPECT_EQ(CountRows("collection"), 2);
+  for (const char* table : {"shape", "graph", "face_label", "mesh", "signature",
+                            "surface_windows", "change_log"}) {
+    EXPECT_EQ(CountRows(table), 2) << table;
+  }
+}
+
 TEST_F(SqliteCatalogTest, RefusesASecondOpenOfItsFolder) {
   Fill(0);
   EXPECT_THAT(OpenAt(data_), StatusIs(absl::StatusCode::kFailedPrecondition,
