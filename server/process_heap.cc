@@ -2,23 +2,25 @@
 
 #include <malloc.h>
 
-#include <algorithm>
-
 #include "server/engine/cpu_count.h"
 
 namespace argmesh {
 namespace {
 
-// Twice what glibc begins with; set, it is not raised up to 32 MiB.
-constexpr int kLargeBytes = 256 << 10;
+// Half of what glibc has. With fewer, threads of low priority that hold a heap
+// keep others waiting.
+constexpr int kHeapsPerCpu = 4;
+// More than a message has: to map and unmap each costs others their time. Set,
+// it is not raised up to 32 MiB.
+constexpr int kLargeBytes = 4 << 20;
 
 }  // namespace
 
 void LimitHeaps() {
 #ifdef __GLIBC__
-  mallopt(M_ARENA_MAX, std::max(2, AvailableCpus()));
+  mallopt(M_ARENA_MAX, kHeapsPerCpu * AvailableCpus());
   mallopt(M_MMAP_THRESHOLD, kLargeBytes);
-  mallopt(M_TRIM_THRESHOLD, 4 * kLargeBytes);
+  mallopt(M_TRIM_THRESHOLD, 2 * kLargeBytes);
 #endif
 }
 

@@ -4,8 +4,8 @@
 
 namespace argmesh {
 
-// Before the first thread: of glibc's heaps, each as large as the threads that
-// share it ever needed at once, one a CPU is made, two at least; what is large
+// Before the first thread: glibc makes four heaps a CPU at most, each as large
+// as the threads that share it need at once, and what is larger than a message
 // lies in none of them and goes back when it is freed.
 void LimitHeaps();
 
