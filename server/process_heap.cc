@@ -7,12 +7,11 @@
 namespace argmesh {
 namespace {
 
-// Half of what glibc has. With fewer, threads of low priority that hold a heap
-// keep others waiting.
-constexpr int kHeapsPerCpu = 4;
-// More than a message has: to map and unmap each costs others their time. Set,
-// it is not raised up to 32 MiB.
-constexpr int kLargeBytes = 4 << 20;
+// A quarter of what glibc has. With one, threads of low priority that hold a
+// heap keep others waiting.
+constexpr int kHeapsPerCpu = 2;
+// Twice what glibc begins with; set, it is not raised up to 32 MiB.
+constexpr int kLargeBytes = 256 << 10;
 
 }  // namespace
 
@@ -20,7 +19,7 @@ void LimitHeaps() {
 #ifdef __GLIBC__
   mallopt(M_ARENA_MAX, kHeapsPerCpu * AvailableCpus());
   mallopt(M_MMAP_THRESHOLD, kLargeBytes);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLargeBytes);
+  mallopt(M_TRIM_THRESHOLD, 4 * kLargeBytes);
 #endif
 }
 

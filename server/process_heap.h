@@ -4,9 +4,9 @@
 
 namespace argmesh {
 
-// Before the first thread: glibc makes four heaps a CPU at most, each as large
-// as the threads that share it need at once, and what is larger than a message
-// lies in none of them and goes back when it is freed.
+// Before the first thread: glibc makes two heaps a CPU at most, each as large
+// as the threads that share it need at once, and what is large lies in none of
+// them and goes back when it is freed.
 void LimitHeaps();
 
 // Gives free pages of all heaps back. Others' allocations wait meanwhile: 1 ms
