@@ -13,12 +13,12 @@ struct StoreLoad {
   int64_t meshes = 0;  // files that rows name
   int64_t mesh_bytes = 0;
   int64_t deleted_shapes = 0;  // of deleted collections, not removed yet
-  int64_t free_bytes = 0;     // of the disk
-  bool writable = true;       // false: writes that add are refused, disk full
-  int64_t queued_writes = 0;  // wait for a commit
-  int64_t commits = 0;        // since the start
-  int64_t changes = 0;        // in these commits
-  double commit_seconds = 0;  // that they took
+  int64_t free_bytes = 0;      // of the disk
+  bool writable = true;        // false: writes that add are refused, disk full
+  int64_t queued_writes = 0;   // wait for a commit
+  int64_t commits = 0;         // since the start
+  int64_t changes = 0;         // in these commits
+  double commit_seconds = 0;   // that they took
 };
 
 }  // namespace argmesh
