@@ -37,7 +37,19 @@ absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection) {
       connection.Run("DELETE FROM change_log WHERE (collection_id, generation) "
                      "IN (SELECT l.collection_id, l.generation FROM found f "
                      "JOIN change_log l ON l.collection_id = f.id "
-                     "AND l.generation <= f.generation LIMIT 1000)"));
+                     "AND l.generation <= f.generation LIMIT ?)",
+                     kChangesForgottenAtOnce));
+  return forgotten > 0;
+}
+
+absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection,
+                                       int64_t collection) {
+  ARGMESH_ASSIGN_OR_RETURN(
+      const int64_t forgotten,
+      connection.Run("DELETE FROM change_log WHERE collection_id = ?1 AND "
+                     "generation IN (SELECT generation FROM change_log "
+                     "WHERE collection_id = ?1 LIMIT ?2)",
+                     collection, kChangesForgottenAtOnce));
   return forgotten > 0;
 }
 

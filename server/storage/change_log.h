@@ -12,6 +12,9 @@
 
 namespace argmesh {
 
+// Changes that are removed in one write, so that others need not wait long.
+inline constexpr int64_t kChangesForgottenAtOnce = 1000;
+
 // The collection's next generation, with the change in its log; `added` shapes
 // are more in it then.
 absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
@@ -22,6 +25,9 @@ absl::StatusOr<int64_t> LogChange(SqliteConnection& connection,
 absl::Status NoteOpening(SqliteConnection& connection);
 // Removes some of the changes up to these; false when none is left.
 absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection);
+// The same, of all changes of a collection.
+absl::StatusOr<bool> ForgetSomeChanges(SqliteConnection& connection,
+                                       int64_t collection);
 
 }  // namespace argmesh
 

@@ -7,6 +7,7 @@
 #include "server/engine/catalog_errors.h"
 #include "server/engine/record_codec.h"
 #include "server/storage/catalog_rows.h"
+#include "server/storage/change_log.h"
 #include "server/storage/metadata_values.h"
 #include "server/storage/request_memory.h"
 #include "server/storage/sqlite_catalog.h"
@@ -16,8 +17,6 @@ namespace argmesh {
 namespace {
 
 constexpr int64_t kCollectionBytes = 1024;
-// Of its log, that are removed in one write.
-constexpr int64_t kChangesAtOnce = 1000;
 
 absl::StatusOr<CollectionRecord> Insert(SqliteConnection& connection,
                                         const CollectionRecord& record) {
@@ -67,77 +66,8 @@ absl::StatusOr<CollectionRecord> Update(SqliteConnection& connection,
   return std::move(updated.record);
 }
 
-absl::StatusOr<std::vector<Sha256Digest>> MeshesOf(SqliteConnection& connection,
-                                                   int64_t collection) {
-  ARGMESH_ASSIGN_OR_RETURN(
-      SqliteStatement statement,
-      connection.Query("SELECT DISTINCT mesh_sha256 FROM shape "
-                       "WHERE collection_id = ? AND mesh_sha256 IS NOT NULL "
-                       "ORDER BY mesh_sha256",
-                       collection));
-  std::vector<Sha256Digest> meshes;
-  while (true) {
-    ARGMESH_ASSIGN_OR_RETURN(const bool row, statement.Step());
-    if (!row) return meshes;
-    ARGMESH_ASSIGN_OR_RETURN(const Sha256Digest sha256, statement.Digest(0));
-    meshes.push_back(sha256);
-  }
-}
-
-// The meshes of `candidates` that no shape names any more, and their rows go.
-absl::StatusOr<std::vector<Sha256Digest>> DropMeshes(
-    SqliteConnection& connection, const std::vector<Sha256Digest>& candidates) {
-  std::vector<Sha256Digest> unreferenced;
-  for (const Sha256Digest& sha256 : candidates) {
-    ARGMESH_ASSIGN_OR_RETURN(const bool gone,
-                             DeleteUnreferencedMesh(connection, sha256));
-    if (gone) unreferenced.push_back(sha256);
-  }
-  return unreferenced;
-}
-
-absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
-                                         const CollectionDelete& removal,
-                                         int removed_at_once) {
-  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
-                           FindCollectionRow(connection, removal.id));
-  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, CollectionEtag(row.record)));
-  if (row.record.shape_count > 0 && !removal.force) {
-    return CollectionNotEmptyError(removal.id);
-  }
-  CollectionDeleted deleted;
-  deleted.uid = row.record.uid;
-  if (row.record.shape_count > removed_at_once ||
-      row.record.generation > kChangesAtOnce) {
-    ARGMESH_RETURN_IF_ERROR(
-        connection
-            .Run("UPDATE collection SET name = " ARGMESH_DELETED " || uid, "
-                 "uid = " ARGMESH_DELETED " || uid WHERE id = ?",
-                 row.number)
-            .status());
-    return deleted;
-  }
-  ARGMESH_ASSIGN_OR_RETURN(const std::vector<Sha256Digest> meshes,
-                           MeshesOf(connection, row.number));
-  ARGMESH_RETURN_IF_ERROR(
-      connection.Run("DELETE FROM shape WHERE collection_id = ?", row.number)
-          .status());
-  ARGMESH_RETURN_IF_ERROR(
-      connection.Run("DELETE FROM collection WHERE id = ?", row.number)
-          .status());
-  ARGMESH_ASSIGN_OR_RETURN(deleted.unreferenced,
-                           DropMeshes(connection, meshes));
-  return deleted;
-}
-
-// The number of a deleted collection that is not removed yet; none: 0.
-absl::StatusOr<int64_t> FindDeleted(SqliteConnection& connection) {
-  return connection.QueryInt(
-      "SELECT COALESCE((SELECT id FROM collection "
-      "WHERE name >= " ARGMESH_DELETED " LIMIT 1), 0)");
-}
-
-// Removes the first shapes of a collection, `most` of them; how many.
+// Removes shapes of a collection, at most so many, and the meshes that no other
+// shape names; how many shapes.
 absl::StatusOr<int64_t> RemoveShapes(SqliteConnection& connection,
                                      int64_t collection, int most,
                                      std::vector<Sha256Digest>& unreferenced) {
@@ -166,32 +96,68 @@ absl::StatusOr<int64_t> RemoveShapes(SqliteConnection& connection,
                "WHERE id = ?",
                removed, collection)
           .status());
-  ARGMESH_ASSIGN_OR_RETURN(
-      unreferenced, DropMeshes(connection, {meshes.begin(), meshes.end()}));
+  for (const Sha256Digest& sha256 : meshes) {
+    ARGMESH_ASSIGN_OR_RETURN(const bool gone,
+                             DeleteUnreferencedMesh(connection, sha256));
+    if (gone) unreferenced.push_back(sha256);
+  }
   return removed;
 }
 
-// The collection itself goes last.
-absl::StatusOr<RemovedShapes> RemoveSome(SqliteConnection& connection,
+absl::Status RemoveRow(SqliteConnection& connection, int64_t collection) {
+  return connection.Run("DELETE FROM collection WHERE id = ?", collection)
+      .status();
+}
+
+absl::StatusOr<CollectionDeleted> Delete(SqliteConnection& connection,
+                                         const CollectionDelete& removal,
                                          int removed_at_once) {
-  ARGMESH_ASSIGN_OR_RETURN(const int64_t collection, FindDeleted(connection));
-  RemovedShapes removed;
-  removed.more = collection != 0;
-  if (!removed.more) return removed;
+  ARGMESH_ASSIGN_OR_RETURN(const CollectionRow row,
+                           FindCollectionRow(connection, removal.id));
+  ARGMESH_RETURN_IF_ERROR(CheckEtag(removal.etag, CollectionEtag(row.record)));
+  if (row.record.shape_count > 0 && !removal.force) {
+    return CollectionNotEmptyError(removal.id);
+  }
+  CollectionDeleted deleted;
+  deleted.uid = row.record.uid;
+  if (row.record.shape_count > removed_at_once ||
+      row.record.generation > kChangesForgottenAtOnce) {
+    ARGMESH_RETURN_IF_ERROR(
+        connection
+            .Run("UPDATE collection SET name = " ARGMESH_DELETED " || uid, "
+                 "uid = " ARGMESH_DELETED " || uid WHERE id = ?",
+                 row.number)
+            .status());
+    return deleted;
+  }
+  ARGMESH_RETURN_IF_ERROR(RemoveShapes(connection, row.number, removed_at_once,
+                                       deleted.unreferenced)
+                              .status());
+  ARGMESH_RETURN_IF_ERROR(RemoveRow(connection, row.number));
+  return deleted;
+}
+
+// The number of a deleted collection that is not removed yet; none: 0.
+absl::StatusOr<int64_t> FindDeleted(SqliteConnection& connection) {
+  return connection.QueryInt(
+      "SELECT COALESCE((SELECT id FROM collection "
+      "WHERE name >= " ARGMESH_DELETED " LIMIT 1), 0)");
+}
+
+// Some of what a deleted collection left; its row goes last.
+absl::StatusOr<RemovedShapes> RemoveSome(SqliteConnection& connection,
+                                         int64_t collection,
+                                         int removed_at_once) {
+  RemovedShapes removed = {.more = true, .unreferenced = {}};
   ARGMESH_ASSIGN_OR_RETURN(const int64_t shapes,
                            RemoveShapes(connection, collection, removed_at_once,
                                         removed.unreferenced));
   if (shapes > 0) return removed;
-  ARGMESH_ASSIGN_OR_RETURN(
-      const int64_t changes,
-      connection.Run("DELETE FROM change_log WHERE collection_id = ?1 AND "
-                     "generation IN (SELECT generation FROM change_log "
-                     "WHERE collection_id = ?1 LIMIT ?2)",
-                     collection, kChangesAtOnce));
-  if (changes > 0) return removed;
-  ARGMESH_RETURN_IF_ERROR(
-      connection.Run("DELETE FROM collection WHERE id = ?", collection)
-          .status());
+  ARGMESH_ASSIGN_OR_RETURN(const bool changes,
+                           ForgetSomeChanges(connection, collection));
+  if (!changes) {
+    ARGMESH_RETURN_IF_ERROR(RemoveRow(connection, collection));
+  }
   return removed;
 }
 
@@ -251,7 +217,7 @@ absl::StatusOr<RemovedShapes> SqliteCatalog::RemoveSomeDeleted() {
   if (*found == 0) return removed;
   ARGMESH_RETURN_IF_ERROR(
       writer_.Write(kCollectionBytes, [&](SqliteConnection& connection) {
-        removed = RemoveSome(connection, removed_at_once_);
+        removed = RemoveSome(connection, *found, removed_at_once_);
         return removed.status();
       }));
   return removed;

@@ -23,7 +23,7 @@ absl::StatusOr<RealStore> RealStore::Open(const std::filesystem::path& path) {
   ARGMESH_ASSIGN_OR_RETURN(store.catalog,
                            SqliteCatalog::Open(store.directory, options));
   ARGMESH_RETURN_IF_ERROR(store.catalog->RemoveUnusedGraphs({}));
-  RemovedShapes removed = {.more = true};
+  RemovedShapes removed = {.more = true, .unreferenced = {}};
   while (removed.more) {
     ARGMESH_ASSIGN_OR_RETURN(removed, store.catalog->RemoveSomeDeleted());
   }
